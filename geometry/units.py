@@ -1,0 +1,95 @@
+"""Units at the border: text such as ``"9.05 mm"`` becomes a float in SI, or a sentence that says why not.
+
+Inside helicable every number is SI (m, kg, s, N, Pa, rad; temperatures in kelvin, or in degC where a column says so).
+pint is imported here and nowhere else.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import pint
+
+from geometry.errors import SpecError
+
+
+@lru_cache(maxsize=1)
+def _registry() -> pint.UnitRegistry:
+    registry: pint.UnitRegistry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+    return registry
+
+
+def read_quantity(text: object, unit: str, where: str) -> float:
+    """SI value of a quantity that a user wrote with its unit.
+
+    Parameters
+    ----------
+    text : object
+        What stands in the file, for instance ``"9.05 mm"``. A bare number is accepted only where `unit` is ``"1"``.
+    unit : str
+        The SI unit that is expected, for instance ``"m"`` or ``"N m^2"``; ``"1"`` for a pure number.
+    where : str
+        The place in the user's file, named in the error.
+
+    Returns
+    -------
+    float
+        The value in `unit`.
+
+    Raises
+    ------
+    SpecError
+        If the text is not a finite number with a unit of the expected dimension.
+
+    Examples
+    --------
+    >>> read_quantity("9.05 mm", "m", "conductor.diameter")
+    0.00905
+    >>> read_quantity("80 GPa", "Pa", "strand.E")
+    80000000000.0
+    """
+    if isinstance(text, bool) or not isinstance(text, (str, int, float)):
+        raise SpecError(f'{where}: expected a quantity such as "1 {unit}", found {text!r}.')
+    if isinstance(text, (int, float)) and unit != "1":
+        raise SpecError(f'{where}: the number {text} has no unit; write it as text with its unit, such as "{text} {unit}".')
+    try:
+        value = _registry().Quantity(str(text).strip())
+        converted = float(value.to(unit if unit != "1" else "dimensionless").magnitude)
+    except pint.DimensionalityError as error:
+        raise SpecError(f'{where}: "{text}" cannot be read in {unit}, because {_dimension_sentence(error)}.') from None
+    except Exception:  # pint raises many kinds (tokenizer, undefined unit, assertion) for text that is no quantity
+        raise SpecError(f'{where}: "{text}" is not a quantity with a known unit; expected one such as "1 {unit}".') from None
+    if not math.isfinite(converted):
+        raise SpecError(f'{where}: "{text}" is not a finite number.')
+    return converted
+
+
+def conversion(unit: str, to: str, where: str) -> tuple[float, float]:
+    """Factor and offset that turn a column in `unit` into `to`: ``si = factor * value + offset``.
+
+    Raises
+    ------
+    SpecError
+        If `unit` is unknown or has another dimension than `to`.
+
+    Examples
+    --------
+    >>> conversion("mm", "m", "column 2")
+    (0.001, 0.0)
+    """
+    registry = _registry()
+    plain = "dimensionless" if unit.strip() in {"", "-", "1"} else unit
+    target = "dimensionless" if to in {"", "-", "1"} else to
+    try:
+        zero = float(registry.Quantity(0.0, plain).to(target).magnitude)
+        one = float(registry.Quantity(1.0, plain).to(target).magnitude)
+    except pint.DimensionalityError as error:
+        raise SpecError(f"{where}: the unit [{unit}] cannot be read in [{to}], because {_dimension_sentence(error)}.") from None
+    except Exception:  # see read_quantity
+        raise SpecError(f"{where}: the unit [{unit}] is not known; expected one that converts to [{to}].") from None
+    return one - zero, zero
+
+
+def _dimension_sentence(error: pint.DimensionalityError) -> str:
+    return f"{error.units1} is {error.dim1 or '[dimensionless]'} and {error.units2} is {error.dim2 or '[dimensionless]'}"
