@@ -1,0 +1,84 @@
+r"""Moduli by volume averages, and the energy values beside them.
+
+Formula (3) of Ge et al., PLoS ONE 18(2) e0281136 (2023), doi 10.1371/journal.pone.0281136: the equivalent modulus is the mean
+stress over the mean strain, :math:`\langle q \rangle = \frac1V \sum_i V_i q_i`. Every section of a long cable is the same
+up to its angle, so the volume average over a piece of cable is the area average over the section.
+
+* Axial: :math:`E = \langle\sigma_{zz}\rangle / \langle\varepsilon_{zz}\rangle`, once with the twist blocked, once with the torque zero.
+* Shear: under a shear force T along x, at the section where its moment vanishes,
+  :math:`G_{yoz} = \langle\tau_{xz}\rangle / \langle\gamma_{xz}\rangle` with :math:`\gamma_{xz} = \partial_z u_x + \partial_x u_z`. The section may
+  warp freely; its mean rotation is the area mean of :math:`\partial_x u_z`, so that in the frame in which the mean rotation is
+  zero the mean shear strain is the slope of the axis. G_xoz: the same along y. The source pairs the +-X tests with the plane
+  yoz and the +-Y tests with xoz.
+
+The mean shear strains are a 2x2 matrix S per unit shear force. A section turned by the angle phi has R S R^T; the average
+over a pitch of the cable is the average over phi, (tr S / 2) times the unit matrix, for both planes the same.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from homogenize.helical_cell import HelicalCell
+
+
+@dataclass(frozen=True)
+class VolumeAverage:
+    """Moduli [Pa] of a long cable by formula (3), all referred to the area of the section (2D cell: the mesh area).
+
+    ``E_blocked_twist`` and ``E_free_twist``; ``G_yoz`` and ``G_xoz`` averaged over the pitch; ``shear`` (2, 2) [1/Pa], mean shear
+    strain (gamma_x, gamma_y) per mean shear stress (x, y) at phase zero.
+    """
+
+    E_blocked_twist: float
+    E_free_twist: float
+    G_yoz: float
+    G_xoz: float
+    shear: NDArray[np.float64]
+
+    def shear_moduli_at(self, phase: float) -> tuple[float, float]:
+        """(G_yoz, G_xoz) [Pa] of the section turned by `phase` [rad] about z."""
+        c, s = np.cos(phase), np.sin(phase)
+        R = np.array([[c, -s], [s, c]])
+        turned = R @ self.shear @ R.T
+        return float(1.0 / turned[0, 0]), float(1.0 / turned[1, 1])
+
+
+def volume_average(cell: HelicalCell) -> VolumeAverage:
+    """Formula (3) on the solved cell: mean stress over mean strain for tension and for shear.
+
+    Parameters
+    ----------
+    cell : HelicalCell
+        Solved cross-section.
+
+    Returns
+    -------
+    VolumeAverage
+        Moduli in Pa.
+    """
+    C = cell.stiffness.C
+    blocked = C[:, 2]  # section forces of unit stretch, no other section strain
+    free = np.eye(6)[2]  # unit tension, no torque, no moment
+    shear = np.zeros((2, 2))
+    for column in (0, 1):
+        force = np.eye(6)[column]
+        stress, strain = _means(cell, force)
+        shear[:, column] = strain[[4, 3]] / stress[4 - column]
+    mean = float(1.0 / (0.5 * np.trace(shear)))
+    return VolumeAverage(_axial(cell, blocked), _axial(cell, free), mean, mean, shear)
+
+
+def _axial(cell: HelicalCell, section_forces: NDArray[np.float64]) -> float:
+    stress, strain = _means(cell, section_forces)
+    return float(stress[2] / strain[2])
+
+
+def _means(cell: HelicalCell, section_forces: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Area means of stress and strain, each (6,)."""
+    weight = cell.field.weight / cell.field.area
+    strain, stress = cell.strain(section_forces), cell.stress(section_forces)
+    return np.einsum("eq,eqi->i", weight, stress), np.einsum("eq,eqi->i", weight, strain)
