@@ -1,0 +1,108 @@
+r"""Direct solution of block-tridiagonal systems, the matrix of every chain of nodes that couple to their neighbours.
+
+With blocks D_i on, U_i above and L_i below the diagonal, elimination from the first block on gives
+
+.. math:: P_i \bar D_i = \text{LU}, \quad X_i = \bar D_i^{-1} U_i, \quad \bar D_{i+1} = D_{i+1} - L_i X_i,
+
+with row pivoting inside a block; work and storage grow linearly with the number of blocks.
+Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., section 4.5.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beam.compiled import kernel
+
+Array = NDArray[np.float64]
+
+
+@kernel
+def factor_block(A: Array, pivot: NDArray[np.int64]) -> bool:
+    """LU of the square `A` in place with row pivoting; False if it is singular or not finite."""
+    n = A.shape[0]
+    for k in range(n):
+        p = k
+        largest = abs(A[k, k])
+        for i in range(k + 1, n):
+            if abs(A[i, k]) > largest:
+                largest = abs(A[i, k])
+                p = i
+        pivot[k] = p
+        if not largest > 0.0 or largest > 1e300:
+            return False
+        if p != k:
+            for j in range(n):
+                A[k, j], A[p, j] = A[p, j], A[k, j]
+        inverse = 1.0 / A[k, k]
+        for i in range(k + 1, n):
+            A[i, k] *= inverse
+            factor = A[i, k]
+            if factor != 0.0:
+                for j in range(k + 1, n):
+                    A[i, j] -= factor * A[k, j]
+    return True
+
+
+@kernel
+def solve_block(A: Array, pivot: NDArray[np.int64], B: Array) -> None:
+    """Replace the right-hand sides `B` (n, m) by the solutions; `A`, `pivot` from :func:`factor_block`."""
+    n, m = B.shape
+    for k in range(n):
+        p = pivot[k]
+        if p != k:
+            for j in range(m):
+                B[k, j], B[p, j] = B[p, j], B[k, j]
+    for i in range(n):
+        for k in range(i):
+            factor = A[i, k]
+            for j in range(m):
+                B[i, j] -= factor * B[k, j]
+    for i in range(n - 1, -1, -1):
+        for k in range(i + 1, n):
+            factor = A[i, k]
+            for j in range(m):
+                B[i, j] -= factor * B[k, j]
+        inverse = 1.0 / A[i, i]
+        for j in range(m):
+            B[i, j] *= inverse
+
+
+@kernel
+def factor_chain(D: Array, U: Array, L: Array, pivots: NDArray[np.int64]) -> int:
+    """Factorise in place: `D` (n, b, b), `U` and `L` (n - 1, b, b), `pivots` (n, b). Returns -1, or the singular block."""
+    n, b, _ = D.shape
+    for i in range(n):
+        if not factor_block(D[i], pivots[i]):
+            return i
+        if i == n - 1:
+            break
+        solve_block(D[i], pivots[i], U[i])
+        for r in range(b):
+            for k in range(b):
+                factor = L[i, r, k]
+                if factor != 0.0:
+                    for c in range(b):
+                        D[i + 1, r, c] -= factor * U[i, k, c]
+    return -1
+
+
+@kernel
+def solve_chain(D: Array, U: Array, L: Array, pivots: NDArray[np.int64], B: Array) -> None:
+    """Replace `B` (n, b, 1) by the solution; the other arguments from :func:`factor_chain`."""
+    n, b, _ = D.shape
+    for i in range(n):
+        if i > 0:
+            for r in range(b):
+                total = 0.0
+                for k in range(b):
+                    total += L[i - 1, r, k] * B[i - 1, k, 0]
+                B[i, r, 0] -= total
+        solve_block(D[i], pivots[i], B[i])
+    for i in range(n - 2, -1, -1):
+        for r in range(b):
+            total = 0.0
+            for k in range(b):
+                total += U[i, r, k] * B[i + 1, k, 0]
+            B[i, r, 0] -= total

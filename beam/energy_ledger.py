@@ -1,0 +1,93 @@
+r"""Where the energy of a run goes, kept step by step.
+
+Stored energies (kinetic, elastic, gravity, contact penalty, friction bristles) are states. Losses and work are sums over
+the steps by the trapezoidal rule: damping in the cable and in the contacts, sliding friction, and the work of the drives,
+that is of prescribed supports and moving surfaces. The balance
+
+.. math:: \Delta(\text{stored}) + \text{losses} - \text{work} = \text{error}
+
+is closed up to the time integration; its size is reported relative to the throughput, the largest of the summed
+absolute work and of the energy that was exchanged.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beam.rod_model import Forces, RodModel
+
+Array = NDArray[np.float64]
+
+STORED = ("kinetic", "elastic", "gravity", "contact", "bristle")
+SPENT = ("damping_loss", "contact_damping_loss", "friction_loss")
+ENERGIES = (*STORED, *SPENT, "drive_work")
+
+
+@dataclass
+class EnergyLedger:
+    """Running account of one model; :meth:`start` once, :meth:`step` after every accepted step."""
+
+    model: RodModel
+    totals: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ENERGIES, 0.0))
+    throughput: float = 0.0
+    _first: float = 0.0
+    _friction_work: float = 0.0
+    _bristle_first: float = 0.0
+    _powers: Array = field(default_factory=lambda: np.zeros(4))
+    _last: Array = field(default_factory=lambda: np.zeros(len(STORED)))
+
+    def start(self, q: Array, v: Array, a: Array, forces: Forces) -> None:
+        """Take the state at the beginning."""
+        self._store(q, v, forces)
+        self._first = self._stored_sum()
+        self._bristle_first = forces.bristle
+        self._powers = self._power(v, a, forces)
+        self._last = self._stored()
+
+    def step(self, h: float, q: Array, v: Array, a: Array, forces: Forces) -> None:
+        """Add the step of length `h` [s] that ended in this state."""
+        powers = self._power(v, a, forces)
+        damping, contact, friction, drive = 0.5 * h * (powers + self._powers)
+        self._powers = powers
+        self._store(q, v, forces)
+        self.totals["damping_loss"] += damping
+        self.totals["contact_damping_loss"] += contact
+        self._friction_work += friction
+        self.totals["friction_loss"] = self._friction_work - (forces.bristle - self._bristle_first)
+        self.totals["drive_work"] += drive
+        stored = self._stored()
+        exchanged = 0.5 * float(np.abs(stored - self._last).sum())
+        self._last = stored
+        self.throughput += max(abs(drive), exchanged, abs(damping) + abs(contact) + abs(friction))
+
+    @property
+    def balance_error(self) -> float:
+        """(stored + lost - work) over the throughput; positive if energy appeared from nowhere."""
+        lost = sum(self.totals[name] for name in SPENT)
+        error = self._stored_sum() - self._first + lost - self.totals["drive_work"]
+        return error / self.throughput if self.throughput > 0 else 0.0
+
+    def _store(self, q: Array, v: Array, forces: Forces) -> None:
+        model = self.model
+        load = 0.0 if model.load is None else float(np.sum(model.load * q))
+        self.totals["kinetic"] = 0.5 * float(np.sum(v * model.inertia(v)))
+        self.totals["elastic"] = forces.elastic
+        self.totals["gravity"] = model.potential(q) - load
+        self.totals["contact"] = forces.penalty
+        self.totals["bristle"] = forces.bristle
+
+    def _power(self, v: Array, a: Array, forces: Forces) -> Array:
+        model = self.model
+        held = ~model.free
+        reaction = (forces.F + model.inertia(a))[held]
+        drive = float(np.sum(reaction * v[held])) + forces.surface_power
+        return np.array([forces.damping_power, forces.contact_damping_power, forces.friction_power, drive])
+
+    def _stored(self) -> Array:
+        return np.array([self.totals[name] for name in STORED])
+
+    def _stored_sum(self) -> float:
+        return float(self._stored().sum())

@@ -1,0 +1,33 @@
+"""The factorised iteration matrix of a rod, kept over several steps of a modified Newton iteration."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beam.block_tridiagonal import factor_chain, solve_chain
+from beam.element import DOF
+from beam.rod_model import Blocks
+
+Array = NDArray[np.float64]
+
+
+class Factor:
+    """LU of a block-tridiagonal matrix; the blocks are overwritten.
+
+    Attributes
+    ----------
+    singular_node : int
+        First node whose block cannot be eliminated, -1 if none.
+    """
+
+    def __init__(self, blocks: Blocks) -> None:
+        self._blocks = blocks
+        self._pivots = np.empty((blocks.D.shape[0], DOF), dtype=np.int64)
+        self.singular_node = int(factor_chain(blocks.D, blocks.U, blocks.L, self._pivots))
+
+    def solve(self, right: Array) -> Array:
+        """Solution for `right` (n, 12)."""
+        B = np.ascontiguousarray(right, dtype=float).reshape(*right.shape, 1).copy()
+        solve_chain(self._blocks.D, self._blocks.U, self._blocks.L, self._pivots, B)
+        return B[:, :, 0]

@@ -1,0 +1,153 @@
+r"""Static equilibrium F(q) = 0 by pseudo-transient continuation.
+
+Every step solves M (q_{k+1} - q_k)/h^2 + F(q_{k+1}) = 0 with the velocity forgotten afterwards, so that the rod creeps
+downhill in its energy and cannot swing. h grows while Newton's iteration is easy and is cut where it is not; for large h
+the step is Newton's method on the static problem itself. Contact is frictionless until equilibrium is reached; then the
+friction is switched on, whose bristles start unloaded.
+
+Source: C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508-523, doi 10.1137/S0036142996304796.
+"""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beam.linear_solve import Factor
+from beam.rod_model import Blocks, Forces, RodModel
+from beam.status import Outcome, Status
+
+Array = NDArray[np.float64]
+
+logger = logging.getLogger(__name__)
+
+FORCE_ROWS = slice(0, 3)
+MOMENT_ROWS = slice(3, 9)
+
+
+@dataclass(frozen=True)
+class StaticSettings:
+    """Tolerances: largest residual at a node [N] and [N m]; steps: first, growth, largest, smallest [s]."""
+
+    force_tolerance: float = 1e-5
+    moment_tolerance: float = 1e-5
+    first_step: float = 1e-3
+    growth: float = 2.0
+    largest_step: float = 1e6
+    smallest_step: float = 1e-9
+    most_steps: int = 400
+    iterations: int = 12
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A static shape `q`, its friction anchors, the residual that is left, and how it ended."""
+
+    q: Array
+    anchors: list[Array]
+    forces: Forces
+    residual_force: float
+    residual_moment: float
+    iterations: int
+    outcome: Outcome
+
+
+def equilibrium(
+    model: RodModel, q: Array | None = None, *, t: float = 0.0, settings: StaticSettings | None = None
+) -> Equilibrium:
+    """Shape of `model` at rest, with the supports where they are at time `t`.
+
+    Parameters
+    ----------
+    model : RodModel
+    q : (n + 1, 12) array, optional
+        Where to start; the model's starting shape if not given.
+    t : float
+        Time at which prescribed motions are taken [s].
+
+    Returns
+    -------
+    Equilibrium
+        With the residual in N and N m. If the outcome is not completed, `q` is the last shape that was reached.
+    """
+    settings = settings or StaticSettings()
+    q = (model.q0 if q is None else q).copy()
+    rest, unused = np.zeros_like(q), np.zeros_like(q)
+    model.prescribe(t, q, rest.copy(), unused)
+    anchors = model.fresh_anchors()
+    h, count = settings.first_step, 0
+    outcome = Outcome(Status.NOT_CONVERGED, "The number of steps is used up.")
+    current = model.forces(t, q, rest, anchors, friction=False)
+    previous = np.inf
+    for _ in range(settings.most_steps):
+        force, moment = _residual(model, current)
+        if not np.isfinite(force + moment):
+            outcome = Outcome(Status.NOT_FINITE, _where(model, current))
+            break
+        if force <= settings.force_tolerance and moment <= settings.moment_tolerance:
+            outcome = Outcome()
+            break
+        trial, forces, used = _step(model, t, q, anchors, h, settings)
+        count += used
+        if trial is None or forces is None:
+            h /= 4
+            if h < settings.smallest_step:
+                outcome = Outcome(Status.NOT_CONVERGED, _where(model, current))
+                break
+            continue
+        fault = model.rotation_fault(trial)
+        if fault:
+            outcome = Outcome(Status.ROTATION_TOO_LARGE, fault)
+            break
+        q, current, anchors = trial, forces, forces.moved
+        gain = settings.growth * (10.0 if used <= 3 else 1.0)
+        h = min(h * gain, settings.largest_step)
+        previous = force
+    logger.info("statics: %d iterations, last residual %.2e N", count, previous)
+    force, moment = _residual(model, current)
+    current = model.forces(t, q, rest, anchors, friction=True)
+    return Equilibrium(q, current.moved, current, force, moment, count, outcome)
+
+
+def _step(
+    model: RodModel, t: float, q: Array, anchors: list[Array], h: float, settings: StaticSettings
+) -> tuple[Array | None, Forces | None, int]:
+    """One pseudo step by Newton's method; None if it does not converge."""
+    trial, rest = q.copy(), np.zeros_like(q)
+    start = np.inf
+    for k in range(settings.iterations):
+        blocks = Blocks.zeros(model.rod.nodes)
+        forces = model.forces(t, trial, rest, anchors, friction=False, blocks=blocks)
+        residual = np.where(model.free, forces.F + model.inertia((trial - q) / h**2), 0.0)
+        size = float(np.linalg.norm(residual))
+        if k == 0:
+            start = max(size, settings.force_tolerance)
+        if not np.isfinite(size) or size > 1e8 * start:
+            return None, None, k
+        if k > 0 and size <= max(1e-3 * start, 0.1 * settings.force_tolerance):
+            return trial, forces, k
+        model.add_mass(1 / h**2, blocks)
+        model.fix(blocks)
+        factor = Factor(blocks)
+        if factor.singular_node >= 0:
+            return None, None, k
+        trial = trial - np.where(model.free, factor.solve(residual), 0.0)
+    return None, None, settings.iterations
+
+
+def _residual(model: RodModel, forces: Forces) -> tuple[float, float]:
+    R = np.abs(np.where(model.free, forces.F, 0.0))
+    return float(R[:, FORCE_ROWS].max()), float(R[:, MOMENT_ROWS].max())
+
+
+def _where(model: RodModel, forces: Forces) -> str:
+    R = np.where(model.free, forces.F, 0.0)
+    broken = np.argwhere(~np.isfinite(R))
+    if broken.size:
+        return f"Node {broken[0, 0]} has a force that is not a number: check the inputs that act there."
+    node = int(np.argmax(np.abs(R[:, FORCE_ROWS]).max(axis=1)))
+    worst = float(np.abs(R[node, FORCE_ROWS]).max())
+    return f"The residual is largest at node {node}, {worst:.2e} N: try a start shape closer to the supports and contacts."

@@ -1,0 +1,105 @@
+"""Surfaces the cable lies on: planes (trough floor, deck) and cylinders (roller, drum), as plain descriptions.
+
+A surface acts on the **centre line**: the floor plane lies half a diameter above the real floor, the cylinder's radius is
+the radius of the bend. A freely turning roller without inertia and bearing friction carries no friction: mu = 0. A drum
+that does not turn has mu > 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beam.contact_force import CYLINDER, PARAMETERS, PLANE
+from geometry.errors import SpecError
+
+Array = NDArray[np.float64]
+
+Travel = Callable[[float], tuple[Array, Array, Array]]
+"""Time [s] -> displacement [m], velocity [m/s], acceleration [m/s^2], each (3,)."""
+
+
+@dataclass(frozen=True)
+class ContactLaw:
+    """Normal and friction law per length of cable.
+
+    `stiffness` kn [N/m^2], `friction` mu. The damping time tells cn = `damping_time` kn; the bristles have
+    kt = `bristle_ratio` kn and ct = `bristle_time` kt.
+    """
+
+    stiffness: float = 1.25e6
+    friction: float = 0.0
+    damping_time: float = 2e-3
+    bristle_ratio: float = 0.5
+    bristle_time: float = 1e-2
+
+    def __post_init__(self) -> None:
+        if not (self.stiffness > 0 and self.friction >= 0 and self.damping_time >= 0 and self.bristle_ratio > 0):
+            raise SpecError(
+                f"a contact law needs a positive stiffness and bristle ratio and a friction coefficient of zero or more, "
+                f"found {self.stiffness:g} N/m^2, {self.bristle_ratio:g} and {self.friction:g}."
+            )
+
+    def fill(self, p: Array) -> None:
+        """Write the five law parameters into `p`."""
+        kt = self.bristle_ratio * self.stiffness
+        p[1:6] = self.stiffness, self.damping_time * self.stiffness, self.friction, kt, self.bristle_time * kt
+
+
+@dataclass(frozen=True)
+class Plane:
+    """Half space n . x < offset that the centre line cannot enter, inside an axis-parallel box.
+
+    `box_travel` moves the upper x limit of the box, so that a deck can begin at a travelling roller.
+    """
+
+    name: str
+    law: ContactLaw
+    normal: tuple[float, float, float] = (0.0, 1.0, 0.0)
+    offset: float = 0.0
+    low: tuple[float, float, float] = (-np.inf, -np.inf, -np.inf)
+    high: tuple[float, float, float] = (np.inf, np.inf, np.inf)
+    box_travel: Travel | None = None
+    points: int = 3
+
+    def parameters(self, t: float) -> Array:
+        """What the kernel reads at time `t`, shape (23,)."""
+        p = np.zeros(PARAMETERS)
+        p[0] = PLANE
+        self.law.fill(p)
+        p[6:9], p[9] = self.normal, self.offset
+        shift = self.box_travel(t)[0] if self.box_travel else np.zeros(3)
+        p[17:20] = np.array(self.low) + shift
+        p[20:23] = np.array(self.high) + shift
+        return p
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """Cylinder with its axis along z through `centre`, moved by `travel`; the centre line stays outside `radius`."""
+
+    name: str
+    law: ContactLaw
+    centre: tuple[float, float, float]
+    radius: float
+    travel: Travel | None = None
+    points: int = 6
+
+    def parameters(self, t: float) -> Array:
+        """What the kernel reads at time `t`, shape (23,)."""
+        p = np.zeros(PARAMETERS)
+        p[0] = CYLINDER
+        self.law.fill(p)
+        p[10:13], p[16] = self.centre, self.radius
+        if self.travel is not None:
+            displacement, velocity, _ = self.travel(t)
+            p[10:13] += displacement
+            p[13:16] = velocity
+        p[17:20], p[20:23] = -np.inf, np.inf
+        return p
+
+
+Surface = Plane | Cylinder
