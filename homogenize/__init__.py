@@ -1,0 +1,28 @@
+"""From a meshed cable to the stiffness of its beam section.
+
+The path: a cross-section mesh -> :func:`solve_helical_cell` (2D, full 6x6) or a slice -> :func:`solve_periodic_cell` (3D, tension and
+torsion) -> :class:`SectionStiffness`, with :func:`volume_average` for the moduli of the published procedure and
+:func:`check_cell` for what every result must satisfy.
+"""
+
+from homogenize.cell_checks import Check, axial_bounds, check_cell
+from homogenize.helical_cell import HelicalCell, solve_helical_cell
+from homogenize.periodic_cell import PeriodicCell, solve_periodic_cell
+from homogenize.section_stiffness import ORDER, SectionInertia, SectionStiffness, pitch_average
+from homogenize.volume_average import VolumeAverage, volume_average
+
+__all__ = [
+    "ORDER",
+    "Check",
+    "HelicalCell",
+    "PeriodicCell",
+    "SectionInertia",
+    "SectionStiffness",
+    "VolumeAverage",
+    "axial_bounds",
+    "check_cell",
+    "pitch_average",
+    "solve_helical_cell",
+    "solve_periodic_cell",
+    "volume_average",
+]

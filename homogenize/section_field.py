@@ -134,12 +134,12 @@ def section_field(mesh: CrossSectionMesh) -> SectionField:
     weight = np.asarray(basis.dx)
     if weight.min() <= 0:
         e = int(np.argmin(weight.min(axis=1)))
-        x, y = 1e3 * np.asarray(basis.global_coordinates().value)[:, e, 0]
+        x, y = 1e3 * np.asarray(basis.global_coordinates())[:, e, 0]
         raise MeshError(
             f"an element of {mesh.regions[mesh.region_of[e]].name} near ({x:.2f}, {y:.2f}) mm is turned inside out; "
             "ask for a smaller element size."
         )
-    shape = np.array([np.broadcast_to(basis.basis[a][0].value, weight.shape)[0] for a in range(k)])
+    shape = np.array([np.broadcast_to(np.asarray(basis.basis[a][0]), weight.shape)[0] for a in range(k)])
     gradient = np.stack([np.asarray(basis.basis[a][0].grad) for a in range(k)], axis=1)
     by_region = np.array([region.material.elasticity() for region in mesh.regions])
     return SectionField(
@@ -148,7 +148,7 @@ def section_field(mesh: CrossSectionMesh) -> SectionField:
         shape=shape,
         gradient=gradient,
         weight=weight,
-        position=np.asarray(basis.global_coordinates().value),
+        position=np.asarray(basis.global_coordinates()),
         elasticity=by_region[mesh.region_of],
         region_of=mesh.region_of,
         twist_rate=mesh.twist_rate,

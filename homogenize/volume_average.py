@@ -60,16 +60,17 @@ def volume_average(cell: HelicalCell) -> VolumeAverage:
     VolumeAverage
         Moduli in Pa.
     """
-    C = cell.stiffness.C
-    blocked = C[:, 2]  # section forces of unit stretch, no other section strain
-    free = np.eye(6)[2]  # unit tension, no torque, no moment
+    tension = np.eye(6)[2]  # no torque, no moment
+    torque = np.eye(6)[5]
+    F = cell.stiffness.compliance
+    held = tension - F[5, 2] / F[5, 5] * torque  # the torque that keeps the twist zero
     shear = np.zeros((2, 2))
     for column in (0, 1):
         force = np.eye(6)[column]
         stress, strain = _means(cell, force)
         shear[:, column] = strain[[4, 3]] / stress[4 - column]
     mean = float(1.0 / (0.5 * np.trace(shear)))
-    return VolumeAverage(_axial(cell, blocked), _axial(cell, free), mean, mean, shear)
+    return VolumeAverage(_axial(cell, held), _axial(cell, tension), mean, mean, shear)
 
 
 def _axial(cell: HelicalCell, section_forces: NDArray[np.float64]) -> float:
