@@ -1,0 +1,51 @@
+"""From the drawing of a cable to its geometry and its meshes. See ``read_cable`` for the way in.
+
+Names that need gmsh, meshio, matplotlib or pyvista load them only when they are used.
+"""
+
+from geometry.cable import Cable, MarkedNumber, Part, RotaryInertia
+from geometry.cable_file import BuiltinCable, builtin_cables, cable_files, read_cable
+from geometry.cell_mesh import CrossSectionMesh, Region, SliceMesh
+from geometry.clearance import Clearance, Member, clearances, helix_distance
+from geometry.errors import ConvergenceError, GeometryError, InputError, MeshError, SpecError
+from geometry.helical_slice import helical_slice
+from geometry.helix import Helix, lay_angle
+from geometry.material import Material
+from geometry.mesh_quality import element_sizes, region_sizes, scaled_jacobian
+from geometry.section_mesh import cross_section_mesh
+from geometry.strand import Conductor, Strand
+from geometry.wire_trace import WireTrace
+
+__all__ = [
+    "BuiltinCable",
+    "Cable",
+    "Clearance",
+    "Conductor",
+    "ConvergenceError",
+    "CrossSectionMesh",
+    "GeometryError",
+    "Helix",
+    "InputError",
+    "MarkedNumber",
+    "Material",
+    "Member",
+    "MeshError",
+    "Part",
+    "Region",
+    "RotaryInertia",
+    "SliceMesh",
+    "SpecError",
+    "Strand",
+    "WireTrace",
+    "builtin_cables",
+    "cable_files",
+    "clearances",
+    "cross_section_mesh",
+    "element_sizes",
+    "helical_slice",
+    "helix_distance",
+    "lay_angle",
+    "read_cable",
+    "region_sizes",
+    "scaled_jacobian",
+]

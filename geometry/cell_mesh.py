@@ -86,7 +86,9 @@ class SliceMesh:
         return float(np.linalg.norm(self.points[self.top] - image, axis=1).max())
 
 
-def _check(points: NDArray, cells: NDArray, kind: str, region_of: NDArray, regions: tuple[Region, ...], dim: int) -> None:
+def _check(
+    points: NDArray, cells: NDArray, kind: str, region_of: NDArray, regions: tuple[Region, ...], dim: int
+) -> None:
     if kind not in NODES_PER_CELL:
         raise MeshError(f'cell kind "{kind}" is not one of {", ".join(NODES_PER_CELL)}.')
     if points.ndim != 2 or points.shape[1] != dim or not np.isfinite(points).all():

@@ -52,14 +52,18 @@ def read_quantity(text: object, unit: str, where: str) -> float:
     if isinstance(text, bool) or not isinstance(text, (str, int, float)):
         raise SpecError(f'{where}: expected a quantity such as "1 {unit}", found {text!r}.')
     if isinstance(text, (int, float)) and unit != "1":
-        raise SpecError(f'{where}: the number {text} has no unit; write it as text with its unit, such as "{text} {unit}".')
+        raise SpecError(
+            f'{where}: the number {text} has no unit; write it as text with its unit, such as "{text} {unit}".'
+        )
     try:
         value = _registry().Quantity(str(text).strip())
         converted = float(value.to(unit if unit != "1" else "dimensionless").magnitude)
     except pint.DimensionalityError as error:
         raise SpecError(f'{where}: "{text}" cannot be read in {unit}, because {_dimension_sentence(error)}.') from None
     except Exception:  # pint raises many kinds (tokenizer, undefined unit, assertion) for text that is no quantity
-        raise SpecError(f'{where}: "{text}" is not a quantity with a known unit; expected one such as "1 {unit}".') from None
+        raise SpecError(
+            f'{where}: "{text}" is not a quantity with a known unit; expected one such as "1 {unit}".'
+        ) from None
     if not math.isfinite(converted):
         raise SpecError(f'{where}: "{text}" is not a finite number.')
     return converted
@@ -85,11 +89,64 @@ def conversion(unit: str, to: str, where: str) -> tuple[float, float]:
         zero = float(registry.Quantity(0.0, plain).to(target).magnitude)
         one = float(registry.Quantity(1.0, plain).to(target).magnitude)
     except pint.DimensionalityError as error:
-        raise SpecError(f"{where}: the unit [{unit}] cannot be read in [{to}], because {_dimension_sentence(error)}.") from None
+        raise SpecError(
+            f"{where}: the unit [{unit}] cannot be read in [{to}], because {_dimension_sentence(error)}."
+        ) from None
     except Exception:  # see read_quantity
         raise SpecError(f"{where}: the unit [{unit}] is not known; expected one that converts to [{to}].") from None
     return one - zero, zero
 
 
+_NAMED_SI = (
+    "1",
+    "rad",
+    "m",
+    "s",
+    "kg",
+    "K",
+    "N",
+    "Pa",
+    "N m",
+    "N m^2",
+    "J/m^2",
+    "m/s",
+    "m/s^2",
+    "1/m",
+    "rad/m",
+    "1/s",
+    "rad/s",
+    "W",
+)
+
+
+def si_unit(unit: str, where: str) -> str:
+    """The SI unit that a column in `unit` converts to, angles kept apart from pure numbers.
+
+    A full turn and the number one have the same dimension, so that a dimension check alone would take a frequency in
+    rad/s for one in 1/s, wrong by 2 pi; the answers ``"rad/s"`` and ``"1/s"`` differ.
+
+    Raises
+    ------
+    SpecError
+        If `unit` is not known.
+
+    Examples
+    --------
+    >>> si_unit("kN", "column 2"), si_unit("degC", "column 3"), si_unit("rpm", "column 4"), si_unit("Hz", "column 5")
+    ('N', 'K', 'rad/s', '1/s')
+    """
+    registry = _registry()
+    try:
+        base = registry.Quantity(1.0, "dimensionless" if unit.strip() in {"", "-", "1"} else unit).to_base_units().units
+    except Exception:  # see read_quantity
+        raise SpecError(f"{where}: the unit [{unit}] is not known.") from None
+    for name in _NAMED_SI:
+        if registry.Quantity(1.0, "dimensionless" if name == "1" else name).to_base_units().units == base:
+            return name
+    return f"{base:~C}"
+
+
 def _dimension_sentence(error: pint.DimensionalityError) -> str:
-    return f"{error.units1} is {error.dim1 or '[dimensionless]'} and {error.units2} is {error.dim2 or '[dimensionless]'}"
+    return (
+        f"{error.units1} is {error.dim1 or '[dimensionless]'} and {error.units2} is {error.dim2 or '[dimensionless]'}"
+    )

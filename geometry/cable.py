@@ -1,0 +1,185 @@
+r"""A cable as the sum of its parts: round layers about the axis, round cores laid about it, and what fills the gaps.
+
+Every part is a ring (inner to outer radius, in the plane normal to its own centre line) on a helix of radius
+`centre_radius` and the cabling lay. Its area in the plane z = const is exactly pi (R^2 - r^2) / cos beta
+(wire_trace.py), so that per length of cable
+
+.. math::  m = \sum \varrho A, \qquad J_x = \sum \varrho \int y^2 dA, \quad J_z = J_x + J_y .
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.helix import HANDS, lay_angle
+from geometry.material import Material
+from geometry.strand import Conductor
+from geometry.wire_trace import WireTrace
+
+KINDS = ("conductor", "insulation", "screen", "cover", "interstices", "wrap", "sheath")
+
+
+class MarkedNumber(NamedTuple):
+    """A number of the cable file with where it comes from.
+
+    `value` (and `low`, `high`, its range, or None) in SI `unit`; `status` published, deduced, assumed or computed.
+    """
+
+    key: str
+    value: float | tuple[int, ...]
+    unit: str
+    status: str
+    source: str
+    low: float | None = None
+    high: float | None = None
+
+
+class RotaryInertia(NamedTuple):
+    """Rotary inertia per length [kg m] about x, y (bending) and z (spin), about the cable axis."""
+
+    J_x: float
+    J_y: float
+    J_z: float
+
+
+@dataclass(frozen=True)
+class Part:
+    """One named region of the cross-section.
+
+    Attributes
+    ----------
+    name : unique, such as "power core 1 insulation"
+    kind : one of KINDS
+    member : what it belongs to, such as "power core 1"; its own name for layers about the axis
+    centre_radius, phase : centre in the section z = 0 [m, rad]
+    inner_radius, outer_radius : in the plane normal to its own centre line [m]; for the interstices the radii between
+        which they lie
+    twist_rate : 2 pi / lay [rad/m], signed
+    moments : (A, Sx, Sy, Sxx, Syy, Sxy) in the plane z = 0 [m^2 .. m^4]
+    """
+
+    name: str
+    kind: str
+    member: str
+    material: Material
+    centre_radius: float
+    phase: float
+    inner_radius: float
+    outer_radius: float
+    twist_rate: float
+    moments: tuple[float, ...]
+
+    @property
+    def area(self) -> float:
+        """Area in the plane z = const [m^2], closed form."""
+        return self.moments[0]
+
+    @property
+    def lay_sign(self) -> int:
+        """+1 right-handed (Z), -1 left-handed (S), 0 straight."""
+        return int(np.sign(self.twist_rate)) if self.centre_radius > 0 else 0
+
+    @property
+    def lay_angle(self) -> float:
+        """Angle of the part's centre line to the cable axis [rad]."""
+        return float(np.arctan(abs(self.twist_rate) * self.centre_radius))
+
+    @property
+    def outer_trace(self) -> WireTrace:
+        """The curve that bounds the part on the outside, in the plane z = 0."""
+        return WireTrace(self.centre_radius, self.phase, self.outer_radius, self.twist_rate)
+
+    @property
+    def inner_trace(self) -> WireTrace | None:
+        """The curve that bounds the part on the inside; None for a full round."""
+        if self.inner_radius == 0:
+            return None
+        return WireTrace(self.centre_radius, self.phase, self.inner_radius, self.twist_rate)
+
+    @property
+    def mass_per_length(self) -> float:
+        """Mass per length of cable [kg/m]."""
+        return self.material.density * self.area
+
+
+@dataclass(frozen=True)
+class Cable:
+    """A cable with one layer of cores about an optional centre.
+
+    Attributes
+    ----------
+    parts : from the centre outwards, cores in their order round the axis (the first at the angle `phase` from x)
+    conductors : make-up of the conductors by name
+    lay : cabling lay [m], None for a straight cable; hand "Z" or "S"
+    numbers : every number of the file with its mark
+    """
+
+    name: str
+    title: str
+    parts: tuple[Part, ...]
+    conductors: Mapping[str, Conductor]
+    lay: float | None
+    hand: str
+    pitch_circle_radius: float
+    laid_up_radius: float
+    outer_radius: float
+    numbers: tuple[MarkedNumber, ...]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def twist_rate(self) -> float:
+        """2 pi / lay [rad/m], positive for Z, negative for S, zero for a straight cable."""
+        return 0.0 if self.lay is None else HANDS[self.hand] * 2 * np.pi / self.lay
+
+    @property
+    def outer_diameter(self) -> float:
+        """Diameter over the sheath [m]."""
+        return 2 * self.outer_radius
+
+    @property
+    def area(self) -> float:
+        """Area of the outer circle [m^2], the reference area of the moduli."""
+        return float(np.pi * self.outer_radius**2)
+
+    @property
+    def lay_angle(self) -> float:
+        """Lay angle on the pitch circle of the cores [rad]."""
+        return lay_angle(self.pitch_circle_radius, self.lay)
+
+    @property
+    def lay_ratio(self) -> float | None:
+        """Cabling lay over laid-up diameter; None for a straight cable."""
+        return None if self.lay is None else self.lay / (2 * self.laid_up_radius)
+
+    @property
+    def mass_per_length(self) -> float:
+        """Mass per length [kg/m], lays included."""
+        return sum(part.mass_per_length for part in self.parts)
+
+    @property
+    def rotary_inertia(self) -> RotaryInertia:
+        """Rotary inertia per length [kg m] of the section z = 0 about the cable axis."""
+        J_y, J_x = (sum(part.material.density * part.moments[i] for part in self.parts) for i in (3, 4))
+        return RotaryInertia(J_x, J_y, J_x + J_y)
+
+    @property
+    def assumed(self) -> tuple[MarkedNumber, ...]:
+        """The numbers that are assumptions: sweep these."""
+        return tuple(number for number in self.numbers if number.status == "assumed")
+
+    def part(self, name: str) -> Part:
+        """The part of that name; KeyError if there is none."""
+        return {part.name: part for part in self.parts}[name]
+
+
+def ring_moments(
+    centre_radius: float, phase: float, inner: float, outer: float, twist_rate: float
+) -> NDArray[np.float64]:
+    """Area and moments of the trace of a ring, shape (6,), as WireTrace.moments."""
+    moments = WireTrace(centre_radius, phase, outer, twist_rate).moments()
+    return moments - WireTrace(centre_radius, phase, inner, twist_rate).moments() if inner > 0 else moments

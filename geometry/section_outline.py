@@ -1,0 +1,364 @@
+r"""The outlines of a cross-section as a planar graph whose faces are the parts.
+
+Round parts touch each other at single points, where the filler would end in cusps of angle zero that no mesh can fill.
+Near every contact the gap is c s^2 / 2 at the distance s. Where it is narrower than `closure`, the filler is
+replaced by the material of the layer that is touched (earth cover, wrap): the filler then ends in a blunt
+edge of that width. The width is chosen so that no layer gains more than 0.4 % of its area; the outlines that are kept
+stay exact.
+
+Every curve is a WireTrace (a circle about the axis is one too), cut at the ends of the closures into pieces.
+The loops follow from one rule: a piece is walked with the face on its left, and in every face one piece leaves each vertex.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.cable import Cable, Part
+from geometry.errors import MeshError
+from geometry.wire_trace import WireTrace
+
+CLOSURE_SHARE = 0.004
+"""Largest share of a touched layer's area that closures may add."""
+
+
+@dataclass(frozen=True)
+class Edge:
+    """Piece of curve number `curve` from angle `start` to `end` (end > start), or a straight bridge (`curve` = -1)."""
+
+    curve: int
+    tail: int
+    head: int
+    start: float = 0.0
+    end: float = 0.0
+
+
+@dataclass(frozen=True)
+class Neck:
+    """Narrow place at `point`: the gap is max(closure, gap + bend s^2) [m] at the distance s."""
+
+    point: NDArray[np.float64]
+    gap: float
+    bend: float
+    closure: float
+
+
+@dataclass
+class SectionOutline:
+    """Curves, vertices (n, 2), edges, and the loops of every part.
+
+    A loop is a list of signed edge numbers, (number + 1) walked forwards, -(number + 1) backwards. `faces[name]` is a list
+    of faces, each a list of loops, outer loop first.
+    """
+
+    curves: list[WireTrace]
+    vertices: list[NDArray[np.float64]] = field(default_factory=list)
+    edges: list[Edge] = field(default_factory=list)
+    faces: dict[str, list[list[list[int]]]] = field(default_factory=dict)
+    necks: list[Neck] = field(default_factory=list)
+
+    def points(self, edge: Edge, count: int) -> NDArray[np.float64]:
+        """Points (count, 2) along an edge, both ends included."""
+        if edge.curve < 0:
+            t = np.linspace(0, 1, count)[:, None]
+            return (1 - t) * self.vertices[edge.tail] + t * self.vertices[edge.head]
+        return self.curves[edge.curve].point(np.linspace(edge.start, edge.end, count))
+
+
+@dataclass(frozen=True)
+class _Contact:
+    """Closure between curve `a` (kept) and curve `b` (its arc goes); angles at the two ends, in the sense of a."""
+
+    a: int
+    b: int
+    a_ends: tuple[float, float]
+    b_ends: tuple[float, float]
+
+
+def section_outline(cable: Cable, neck_below: float) -> SectionOutline:
+    """Outline of all parts of a cable.
+
+    Parameters
+    ----------
+    neck_below : gaps narrower than this [m] are listed as necks, so that the mesh can be refined there
+
+    Raises
+    ------
+    MeshError
+        If two closures meet, because a part between them is too small.
+    """
+    rings = [part for part in cable.parts if part.kind != "interstices"]
+    curves: list[WireTrace] = []
+    index: dict[tuple[float, float, float], int] = {}
+    for part in rings:
+        for trace in (part.inner_trace, part.outer_trace):
+            if trace is not None and _key(trace) not in index:
+                index[_key(trace)] = len(curves)
+                curves.append(trace)
+    outline = SectionOutline(curves)
+    zone = _zone_curves(cable, index)
+    contacts: list[_Contact] = []
+    if zone:
+        cores, centre, outer = zone
+        contacts = _closures(cable, outline, cores, centre, outer, neck_below)
+    pieces = _cut(outline, contacts)
+    bridges = _bridges(outline, contacts, pieces)
+    _ring_faces(outline, rings, index, zone, contacts, pieces, bridges)
+    if zone and any(part.kind == "interstices" for part in cable.parts):
+        outline.faces["interstices"] = _filler_faces(outline, zone, contacts, pieces, bridges)
+    return outline
+
+
+def _key(trace: WireTrace) -> tuple[float, float, float]:
+    return (
+        round(trace.centre_radius, 12),
+        round(trace.phase if trace.centre_radius > 0 else 0.0, 9),
+        round(trace.radius, 12),
+    )
+
+
+def _zone_curves(
+    cable: Cable, index: dict[tuple[float, float, float], int]
+) -> tuple[list[int], int | None, int] | None:
+    """Curves that bound the interstices: cores, centre (or None), laid-up circle; None if the cable is coaxial."""
+    outermost = {part.member: part for part in cable.parts if part.kind not in ("interstices", "wrap", "sheath")}
+    cores = [index[_key(part.outer_trace)] for part in outermost.values() if part.centre_radius > 0]
+    centre = [index[_key(part.outer_trace)] for part in outermost.values() if part.centre_radius == 0]
+    if not cores:
+        return None
+    return cores, centre[0] if centre else None, index[(0.0, 0.0, round(cable.laid_up_radius, 12))]
+
+
+def _closures(
+    cable: Cable, outline: SectionOutline, cores: list[int], centre: int | None, outer: int, neck_below: float
+) -> list[_Contact]:
+    """All closures; the necks go into the outline, for the mesh size."""
+    curves = outline.curves
+    pairs = [(core, other) for core in cores for other in (centre, outer) if other is not None]
+    pairs += [(a, b) for i, a in enumerate(cores) for b in cores[i + 1 :]]
+    near = []
+    for a, b in pairs:
+        phi = np.linspace(0, 2 * np.pi, 361)
+        gaps = _gap(curves[a], curves[b], phi)
+        k = int(np.argmin(gaps))
+        phi = np.linspace(phi[k] - 0.02, phi[k] + 0.02, 201)
+        gaps = _gap(curves[a], curves[b], phi)
+        if gaps.min() < neck_below:
+            near.append((a, b, float(phi[np.argmin(gaps)]), float(gaps.min())))
+    contacts = []
+    for a, b, phi, gap in near:
+        bend = _bend(curves[a], curves[b], phi, gap)
+        sharing = sum(1 for _, host, _, _ in near if host == b)
+        closure = _closure_width(bend, CLOSURE_SHARE * _host_area(cable, curves[b]) / sharing, curves[a].radius)
+        outline.necks.append(Neck(curves[a].point(phi), gap, bend, closure))
+        if gap < closure:
+            ends = [_end(curves[a], curves[b], phi, sense, closure) for sense in (-1, 1)]
+            b_ends = curves[b].nearest(curves[a].point(np.array(ends)))
+            contacts.append(_Contact(a, b, (ends[0], ends[1]), (float(b_ends[0]), float(b_ends[1]))))
+    return contacts
+
+
+def _gap(a: WireTrace, b: WireTrace, phi: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Distance from points phi of curve a to curve b."""
+    points = a.point(phi)
+    if b.centre_radius == 0:
+        return np.abs(np.hypot(*points.T) - b.radius)
+    return np.linalg.norm(points - b.point(b.nearest(points)), axis=1)
+
+
+def _bend(a: WireTrace, b: WireTrace, phi: float, gap: float) -> float:
+    """Growth of the gap with the square of the distance from the contact [1/m]."""
+    side = 0.1
+    grown = float(np.mean(_gap(a, b, np.array([phi - side, phi + side]))))
+    return (grown - gap) / (side * a.radius) ** 2
+
+
+def _host_area(cable: Cable, curve: WireTrace) -> float:
+    """Area of the layer that gets the closures on this curve: outside the laid-up circle, inside any other curve."""
+    laid_up = curve.centre_radius == 0 and abs(curve.radius - cable.laid_up_radius) < 1e-12
+    for part in cable.parts:
+        trace = part.inner_trace if laid_up else part.outer_trace
+        if part.kind != "interstices" and trace is not None and _key(trace) == _key(curve):
+            return part.area
+    raise MeshError("no part lies along a curve of the section.")
+
+
+def _closure_width(bend: float, area: float, radius: float) -> float:
+    """Width w whose lens (2/3) w sqrt(w / bend) has the given area, at most a hundredth of the radius."""
+    return min(float((1.5 * area * np.sqrt(bend)) ** (2 / 3)), 0.01 * radius)
+
+
+def _end(a: WireTrace, b: WireTrace, phi: float, sense: int, width: float) -> float:
+    """Angle on a, from phi in the given sense, where the gap to b has grown to `width`."""
+    low, high = 0.0, 0.02
+    while float(_gap(a, b, np.array([phi + sense * high]))[0]) < width:
+        high *= 1.3
+        if high > np.pi / 2:
+            raise MeshError(
+                "two parts run so close to each other over a quarter turn that the gap cannot be meshed; join them."
+            )
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if float(_gap(a, b, np.array([phi + sense * middle]))[0]) < width else (low, middle)
+    return phi + sense * high
+
+
+def _cut(outline: SectionOutline, contacts: list[_Contact]) -> dict[int, list[tuple[int, int | None, bool]]]:
+    """Cut every curve at the closure ends; per curve its pieces in ccw order: (edge, closure it bounds or None, removed)."""
+    pieces: dict[int, list[tuple[int, int | None, bool]]] = {}
+    for number, curve in enumerate(outline.curves):
+        spans = []
+        for c, contact in enumerate(contacts):
+            if contact.a == number:
+                spans.append((*contact.a_ends, c, False))
+            if contact.b == number:
+                spans.append((*_short_way(*contact.b_ends), c, True))
+        spans = sorted(
+            (start % (2 * np.pi), start % (2 * np.pi) + end - start, c, removed) for start, end, c, removed in spans
+        )
+        pieces[number] = _pieces_of(outline, number, curve, spans)
+    return pieces
+
+
+def _short_way(start: float, end: float) -> tuple[float, float]:
+    """The two angles so that the second follows the first within half a turn."""
+    step = (end - start + np.pi) % (2 * np.pi) - np.pi
+    return (start, start + step) if step > 0 else (start + step, start)
+
+
+def _pieces_of(
+    outline: SectionOutline, number: int, curve: WireTrace, spans: list[tuple[float, float, int, bool]]
+) -> list[tuple[int, int | None, bool]]:
+    cuts: list[tuple[float, int | None, bool]] = []  # angle at which a piece begins, closure, removed
+    for k, (start, end, c, removed) in enumerate(spans):
+        following = spans[k + 1][0] if k + 1 < len(spans) else spans[0][0] + 2 * np.pi
+        if end >= following:
+            raise MeshError("two contacts of one part lie so close together that no filler is left between them.")
+        cuts += [(start, c, removed), (end, None, False)]
+        cuts += [(float(x), None, False) for x in np.linspace(end, following, _parts_of(following - end) + 1)[1:-1]]
+    if not spans:
+        cuts = [(float(x), None, False) for x in np.linspace(0, 2 * np.pi, 5)[:-1]]
+    first = len(outline.vertices)
+    outline.vertices += [curve.point(angle) for angle, *_ in cuts]
+    found: list[tuple[int, int | None, bool]] = []
+    for k, (angle, c, removed) in enumerate(cuts):
+        until = cuts[k + 1][0] if k + 1 < len(cuts) else cuts[0][0] + 2 * np.pi
+        outline.edges.append(Edge(number, first + k, first + (k + 1) % len(cuts), angle, until))
+        found.append((len(outline.edges) - 1, c, removed))
+    return found
+
+
+def _parts_of(angle: float) -> int:
+    return max(1, int(np.ceil(angle / (0.6 * np.pi))))
+
+
+def _bridges(
+    outline: SectionOutline, contacts: list[_Contact], pieces: dict[int, list[tuple[int, int | None, bool]]]
+) -> list[list[int]]:
+    """Straight edges across the gap at both ends of each closure, walked with the filler on the left."""
+    bridges = []
+    for c, contact in enumerate(contacts):
+        arc_a = next(outline.edges[e] for e, closure, removed in pieces[contact.a] if closure == c and not removed)
+        arc_b = next(outline.edges[e] for e, closure, removed in pieces[contact.b] if closure == c and removed)
+        b_ends = [arc_b.tail, arc_b.head]
+        start, end = outline.vertices[arc_a.tail], outline.vertices[arc_a.head]
+        if np.linalg.norm(outline.vertices[b_ends[0]] - start) > np.linalg.norm(outline.vertices[b_ends[0]] - end):
+            b_ends.reverse()
+        outline.edges += [Edge(-1, b_ends[0], arc_a.tail), Edge(-1, arc_a.head, b_ends[1])]
+        bridges.append([len(outline.edges) - 2, len(outline.edges) - 1])
+    return bridges
+
+
+def _loops(outline: SectionOutline, signed: list[int]) -> list[list[int]]:
+    """Chain signed edges into closed loops."""
+
+    def ends(number: int) -> tuple[int, int]:
+        edge = outline.edges[abs(number) - 1]
+        return (edge.tail, edge.head) if number > 0 else (edge.head, edge.tail)
+
+    leaving = {ends(number)[0]: number for number in signed}
+    loops = []
+    while leaving:
+        loop = [leaving.pop(next(iter(leaving)))]
+        while (vertex := ends(loop[-1])[1]) in leaving:
+            loop.append(leaving.pop(vertex))
+        loops.append(loop)
+    return loops
+
+
+def _hosted(number: int, contacts: list[_Contact], pieces: dict, bridges: list[list[int]]) -> list[int]:
+    """Signed edges that enclose the closures hosted by curve `number`, closure on the left."""
+    signed = []
+    for c, contact in enumerate(contacts):
+        if contact.b == number:
+            signed += [-(e + 1) for e, closure, removed in pieces[contact.a] if closure == c and not removed]
+            signed += [-(e + 1) for e in bridges[c]]
+    return signed
+
+
+def _ring_faces(
+    outline: SectionOutline,
+    rings: list[Part],
+    index: dict[tuple[float, float, float], int],
+    zone: tuple[list[int], int | None, int] | None,
+    contacts: list[_Contact],
+    pieces: dict[int, list[tuple[int, int | None, bool]]],
+    bridges: list[list[int]],
+) -> None:
+    """Faces of all rings; the layer that touches gets the closures."""
+    laid_up = zone[2] if zone else -1
+
+    def boundary(number: int, sign: int, host: bool) -> list[list[int]]:
+        signed = [sign * (e + 1) for e, _, removed in pieces[number] if not removed]
+        return _loops(outline, signed + (_hosted(number, contacts, pieces, bridges) if host else []))
+
+    for part in rings:
+        outer = index[_key(part.outer_trace)]
+        loops = boundary(outer, 1, outer != laid_up)
+        if part.inner_trace is not None:
+            inner = index[_key(part.inner_trace)]
+            loops += boundary(inner, -1, inner == laid_up)
+        outline.faces[part.name] = [loops]
+
+
+def _filler_faces(
+    outline: SectionOutline,
+    zone: tuple[list[int], int | None, int],
+    contacts: list[_Contact],
+    pieces: dict[int, list[tuple[int, int | None, bool]]],
+    bridges: list[list[int]],
+) -> list[list[list[int]]]:
+    cores, centre, outer = zone
+    signed = [e + 1 for e, closure, _ in pieces[outer] if closure is None]
+    for number in cores + ([centre] if centre is not None else []):
+        signed += [-(e + 1) for e, closure, _ in pieces[number] if closure is None]
+    signed += [e + 1 for pair in bridges for e in pair]
+    loops = _loops(outline, signed)
+    polygons = [np.vstack([_walk(outline, number) for number in loop]) for loop in loops]
+    outers = [k for k, polygon in enumerate(polygons) if _signed_area(polygon) > 0]
+    faces = {k: [loops[k]] for k in outers}
+    for k, polygon in enumerate(polygons):
+        if k not in faces:
+            around = [o for o in outers if _contains(polygons[o], polygon[0])]
+            faces[min(around, key=lambda o: _signed_area(polygons[o]))].append(loops[k])
+    return list(faces.values())
+
+
+def _walk(outline: SectionOutline, number: int) -> NDArray[np.float64]:
+    points = outline.points(outline.edges[abs(number) - 1], 24)
+    return (points if number > 0 else points[::-1])[:-1]
+
+
+def _signed_area(polygon: NDArray[np.float64]) -> float:
+    x, y = polygon.T
+    return float(0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum())
+
+
+def _contains(polygon: NDArray[np.float64], point: NDArray[np.float64]) -> bool:
+    a, b = polygon - point, np.roll(polygon, -1, axis=0) - point
+    turn: Callable[..., NDArray] = np.arctan2
+    return abs(turn(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(1)).sum()) > np.pi
