@@ -1,0 +1,288 @@
+"""Pictures of a comparison: model over measurement with the residual below, and where the model fails.
+
+matplotlib is imported when a picture is asked for. Colours are those of Okabe & Ito (2008), which stay apart for
+colour-blind readers; what they say is also said by line width, marker or text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence, Set
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.comparison import ChannelFit, Comparison
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_BLUE, _SKY, _VERMILLION, _GREY, _INK = "#0072B2", "#56B4E9", "#D55E00", "#9A9A9A", "#2B2B2B"
+_STYLE: dict[Any, Any] = {
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": _GREY,
+    "axes.labelcolor": _INK,
+    "xtick.color": _INK,
+    "ytick.color": _INK,
+    "axes.titlesize": 9,
+    "axes.titlelocation": "left",
+    "figure.constrained_layout.use": True,
+    "savefig.dpi": 150,
+}
+_COLUMNS, _PANELS_A_PAGE = 4, 8
+_MOST_POINTS = 3000
+_MOST_BARS = 60
+_SHOWN = {
+    "extension": (1e3, "mm"),
+    "deflection": (1e3, "mm"),
+    "strain": (1e2, "%"),
+    "rotation": (180 / np.pi, "deg"),
+}
+_CONDITION_SHOWN = {"temperature": (1.0, -273.15, "°C"), "inclination": (180 / np.pi, 0.0, "°")}
+_CONDITION_UNIT = {"axial tension": "N", "tail tension": "N", "specimen length": "m", "speed": "m/s", "frequency": "Hz"}
+
+
+def plot_comparison(comparison: Comparison, folder: str | Path) -> list[Path]:
+    """Write the pictures of a comparison as PNG files.
+
+    Parameters
+    ----------
+    comparison : Comparison
+        What :func:`compare.comparison.compare` found.
+    folder : path
+        Made if it is not there.
+
+    Returns
+    -------
+    list of Path
+        ``overview.png`` first, then ``<kind>-<channel>-<page>.png``; empty where nothing could be compared.
+    """
+    if not comparison.fits:
+        return []
+    import matplotlib
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    with matplotlib.rc_context(_STYLE):
+        for name, figure in _figures(comparison):
+            FigureCanvasAgg(figure)
+            figure.savefig(folder / f"{name}.png")
+            written.append(folder / f"{name}.png")
+    return written
+
+
+def _figures(comparison: Comparison) -> list[tuple[str, Figure]]:
+    figures = [("overview", overview_figure(comparison))]
+    failing = {(f.experiment.id, f.channel) for f in comparison.where_it_fails()}
+    for kind, channel in dict.fromkeys((f.experiment.kind, f.channel) for f in comparison.fits):
+        groups = _grouped([f for f in comparison.fits if (f.experiment.kind, f.channel) == (kind, channel)])
+        pages = [groups[i : i + _PANELS_A_PAGE] for i in range(0, len(groups), _PANELS_A_PAGE)]
+        for page, part in enumerate(pages, start=1):
+            title = f"{kind}: {channel}, model over measurement" + (
+                f" ({page} of {len(pages)})" if len(pages) > 1 else ""
+            )
+            name = f"{kind}-{channel.replace(' ', '-')}-{page}"
+            figures.append((name, loops_figure(part, title, _varying(groups), failing)))
+    return figures
+
+
+def _grouped(fits: Sequence[ChannelFit]) -> list[list[ChannelFit]]:
+    """Fits of one experiment and its repeats together, in the order of the campaign."""
+    parent = {f.experiment.id: f.experiment.repeat_of for f in fits}
+    groups: dict[str, list[ChannelFit]] = {}
+    for fit in fits:
+        root = fit.experiment.id
+        while (above := parent.get(root)) is not None:
+            root = above
+        groups.setdefault(root, []).append(fit)
+    return list(groups.values())
+
+
+def loops_figure(
+    groups: Sequence[Sequence[ChannelFit]], title: str, conditions: Sequence[str], failing: Set[tuple[str, str]]
+) -> Figure:
+    """One panel per experiment with its repeats: the loops, and below the residual with its noise band.
+
+    Parameters
+    ----------
+    groups : sequence of sequences of ChannelFit
+        Every group is drawn into one panel; all of one kind and channel.
+    title : str
+        Above the figure.
+    conditions : sequence of str
+        Names of the conditions that stand above every panel.
+    failing : set of (experiment id, channel)
+        Fits whose misfit noise does not explain.
+    """
+    from matplotlib.figure import Figure
+
+    columns = min(_COLUMNS, len(groups))
+    rows = -(-len(groups) // columns)
+    width = 3.3 if columns > 1 else 6.0
+    figure = Figure(figsize=(width * columns, 3.9 * rows + 0.8))
+    outer = figure.add_gridspec(rows, columns, hspace=0.06)
+    largest = max(float(np.abs(f.measured).max()) for group in groups for f in group)
+    first = groups[0][0]
+    x_scale, y_scale = _scale(first.experiment.record.prescribed, first), _force_scale(first.unit, largest)
+    worst = max(float(np.abs(f.measured - f.model).max()) for group in groups for f in group)
+    reach = 1.08 * max(worst, 2.5 * max(f.noise_floor for group in groups for f in group))
+    r_scale = _force_scale(first.unit, reach)
+    for i, group in enumerate(groups):
+        inner = outer[i // columns, i % columns].subgridspec(2, 1, height_ratios=(2.2, 1), hspace=0.05)
+        top = figure.add_subplot(inner[0])
+        below = figure.add_subplot(inner[1], sharex=top)
+        _draw_loop(top, group, x_scale, y_scale)
+        _draw_residual(below, group, x_scale, r_scale)
+        below.set_ylim(-reach * r_scale[0], reach * r_scale[0])
+        top.set_title(_panel_title(group, conditions, failing))
+        top.tick_params(labelbottom=False)
+        below.set_xlabel(f"{first.experiment.record.prescribed} [{x_scale[1]}]")
+        if i % columns == 0:
+            top.set_ylabel(f"{first.channel} [{y_scale[1]}]")
+            below.set_ylabel(f"residual [{r_scale[1]}]")
+    _shared_legend(figure, max(len(g) for g in groups) > 1)
+    figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold", color=_INK)
+    return figure
+
+
+def _draw_loop(axes: Axes, group: Sequence[ChannelFit], x_scale: tuple[float, str], y_scale: tuple[float, str]) -> None:
+    for i, fit in enumerate(group):
+        x, y = _thinned(_path(fit) * x_scale[0], fit.measured * y_scale[0])
+        axes.plot(x, y, color=_BLUE if i == 0 else _SKY, lw=1.6, zorder=3 - 0.1 * i)
+    x, f = _thinned(_path(group[0]) * x_scale[0], group[0].model * y_scale[0])
+    axes.plot(x, f, color=_VERMILLION, lw=1.0, zorder=4)
+
+
+def _draw_residual(
+    axes: Axes, group: Sequence[ChannelFit], x_scale: tuple[float, str], r_scale: tuple[float, str]
+) -> None:
+    band = 2 * float(np.mean([f.noise_floor for f in group])) * r_scale[0]
+    axes.axhspan(-band, band, color=_GREY, alpha=0.4, lw=0)
+    axes.axhline(0, color=_VERMILLION, lw=0.8)
+    for i, fit in enumerate(group):
+        x, r = _thinned(_path(fit) * x_scale[0], (fit.measured - fit.model) * r_scale[0])
+        axes.plot(x, r, color=_BLUE if i == 0 else _SKY, lw=0.8, zorder=3 - 0.1 * i)
+
+
+def _shared_legend(figure: Figure, repeats: bool) -> None:
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    handles: list[Any] = [Line2D([], [], color=_BLUE, lw=1.6, label="measured")]
+    if repeats:
+        handles.append(Line2D([], [], color=_SKY, lw=1.6, label="its repeats"))
+    handles.append(Line2D([], [], color=_VERMILLION, lw=1.6, label="calibrated linear model"))
+    handles.append(Patch(color=_GREY, alpha=0.4, lw=0, label="noise, ± 2 floors"))
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), frameon=False)
+
+
+def overview_figure(comparison: Comparison) -> Figure:
+    """Excess over the noise floor of every experiment and channel: bars after calibration, open circles before."""
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    failing = {id(f) for f in comparison.where_it_fails()}
+    fits = sorted(
+        comparison.fits, key=lambda f: (("calibrate", "validate", "sealed").index(f.experiment.set), -f.relative_excess)
+    )
+    hidden = max(len(fits) - _MOST_BARS, 0)
+    if hidden:
+        keep = {id(f) for f in sorted(fits, key=lambda f: -f.relative_excess)[:_MOST_BARS]}
+        fits = [f for f in fits if id(f) in keep]
+    figure = Figure(figsize=(7.5, 1.9 + 0.23 * len(fits)))
+    axes = figure.add_subplot()
+    rows = _rows_with_gaps(fits)
+    after = np.array([f.relative_excess for f in fits])
+    before = np.array([f.before.excess / f.noise_floor for f in fits])
+    colours = [_VERMILLION if id(f) in failing else _SKY for f in fits]
+    axes.barh(rows, after, height=0.72, color=colours)
+    axes.plot(before, rows, "o", mfc="white", mec=_INK, ms=4.5, mew=1.0, clip_on=False)
+    for row, value, fit in zip(rows, after, fits, strict=True):
+        text = f" {fit.after.excess:.3g} {fit.unit}" if id(fit) in failing else " "
+        axes.text(value, row, text, va="center", ha="left", fontsize=7.5, color=_INK, zorder=5)
+    axes.set_yticks(rows, [f"{f.experiment.id}  {f.experiment.kind} {f.channel}" for f in fits], fontsize=7.5)
+    axes.set_ylim(max(rows) + 0.8, min(rows) - 1.2)
+    axes.set_xlim(0, 1.12 * max(1.0, float(np.max(after)), float(np.max(before))))
+    if max(float(np.max(after)), float(np.max(before))) > 100:
+        axes.set_xscale("symlog", linthresh=1.0)
+    for name in dict.fromkeys(f.experiment.set for f in fits):
+        start = min(r for r, f in zip(rows, fits, strict=True) if f.experiment.set == name)
+        axes.text(0, start - 0.6, f" {name}", fontsize=8.5, fontweight="bold", color=_INK, va="bottom")
+    axes.set_xlabel("excess over the noise floor [noise floors]")
+    axes.grid(axis="x", color=_GREY, alpha=0.3, lw=0.6)
+    axes.set_axisbelow(True)
+    axes.tick_params(axis="y", length=0)
+    handles = [
+        Patch(color=_VERMILLION, label="calibrated: beyond noise, with its size"),
+        Patch(color=_SKY, label="calibrated: noise explains it"),
+        Line2D([], [], ls="", marker="o", mfc="white", mec=_INK, ms=5, label="nominal stiffness"),
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False, fontsize=8)
+    tail = f" (the {_MOST_BARS} largest; {hidden} more are smaller)" if hidden else ""
+    title = "Where the linear model fails" if failing else "The linear model leaves nothing but noise"
+    figure.suptitle(f"{title}{tail}", x=0.01, ha="left", fontsize=12, fontweight="bold", color=_INK)
+    return figure
+
+
+def _rows_with_gaps(fits: Sequence[ChannelFit]) -> list[float]:
+    """Vertical place of every bar, with a gap for the name of each set."""
+    rows, place, last = [], 0.0, None
+    for fit in fits:
+        if last is not None and fit.experiment.set != last:
+            place += 1.4
+        rows.append(place)
+        place, last = place + 1.0, fit.experiment.set
+    return rows
+
+
+def _path(fit: ChannelFit) -> NDArray[np.float64]:
+    record = fit.experiment.record
+    return record[record.prescribed]
+
+
+def _thinned(*series: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """Every k-th sample, so that no line has more points than a picture can show."""
+    step = -(-len(series[0]) // _MOST_POINTS)
+    return [s[::step] for s in series]
+
+
+def _scale(channel: str, fit: ChannelFit) -> tuple[float, str]:
+    """Factor and unit in which a prescribed channel is shown."""
+    unit = fit.experiment.record.channels[channel].unit
+    return _SHOWN[channel] if channel in _SHOWN else _force_scale(unit, float(np.abs(_path(fit)).max()))
+
+
+def _force_scale(unit: str, largest: float) -> tuple[float, str]:
+    return (1e-3, f"k{unit}") if unit in ("N", "N m") and largest >= 5000 else (1.0, unit)
+
+
+def _varying(groups: Sequence[Sequence[ChannelFit]]) -> list[str]:
+    """Conditions that differ between the panels, so that naming them tells the panels apart."""
+    seen: dict[str, set[float]] = {}
+    for group in groups:
+        for name, value in group[0].experiment.conditions.items():
+            seen.setdefault(name, set()).add(value)
+    return [name for name, values in seen.items() if len(values) > 1]
+
+
+def _panel_title(group: Sequence[ChannelFit], conditions: Sequence[str], failing: Set[tuple[str, str]]) -> str:
+    first = group[0].experiment
+    ids = ", ".join(f.experiment.id for f in group[:4]) + (" ..." if len(group) > 4 else "")
+    told = ", ".join(_told(name, first.conditions) for name in conditions if name in first.conditions)
+    excess = float(np.sqrt(np.mean([f.relative_excess**2 for f in group])))
+    beyond = any((f.experiment.id, f.channel) in failing for f in group)
+    verdict = f"excess {excess:.2g} floors" if beyond else "within noise"
+    return f"{ids}  ·  {first.set}  ·  {verdict}" + (f"\n{told}" if told else "")
+
+
+def _told(name: str, conditions: Mapping[str, float]) -> str:
+    factor, shift, unit = _CONDITION_SHOWN.get(name, (1.0, 0.0, _CONDITION_UNIT.get(name, "")))
+    label = "" if name in _CONDITION_SHOWN or name in _CONDITION_UNIT else f"{name} "
+    return f"{label}{factor * conditions[name] + shift:.4g} {unit}".rstrip()
