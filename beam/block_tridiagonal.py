@@ -70,6 +70,26 @@ def solve_block(A: Array, pivot: NDArray[np.int64], B: Array) -> None:
 
 
 @kernel
+def solve_row(A: Array, pivot: NDArray[np.int64], B: Array, row: int) -> None:
+    """Replace the right-hand side ``B[row]`` by its solution; `A`, `pivot` from :func:`factor_block`."""
+    n = A.shape[0]
+    for k in range(n):
+        p = pivot[k]
+        if p != k:
+            B[row, k], B[row, p] = B[row, p], B[row, k]
+    for i in range(n):
+        total = B[row, i]
+        for k in range(i):
+            total -= A[i, k] * B[row, k]
+        B[row, i] = total
+    for i in range(n - 1, -1, -1):
+        total = B[row, i]
+        for k in range(i + 1, n):
+            total -= A[i, k] * B[row, k]
+        B[row, i] = total / A[i, i]
+
+
+@kernel
 def factor_chain(D: Array, U: Array, L: Array, pivots: NDArray[np.int64]) -> int:
     """Factorise in place: `D` (n, b, b), `U` and `L` (n - 1, b, b), `pivots` (n, b). Returns -1, or the singular block."""
     n, b, _ = D.shape
@@ -90,19 +110,19 @@ def factor_chain(D: Array, U: Array, L: Array, pivots: NDArray[np.int64]) -> int
 
 @kernel
 def solve_chain(D: Array, U: Array, L: Array, pivots: NDArray[np.int64], B: Array) -> None:
-    """Replace `B` (n, b, 1) by the solution; the other arguments from :func:`factor_chain`."""
+    """Replace `B` (n, b) by the solution; the other arguments from :func:`factor_chain`."""
     n, b, _ = D.shape
     for i in range(n):
         if i > 0:
             for r in range(b):
                 total = 0.0
                 for k in range(b):
-                    total += L[i - 1, r, k] * B[i - 1, k, 0]
-                B[i, r, 0] -= total
-        solve_block(D[i], pivots[i], B[i])
+                    total += L[i - 1, r, k] * B[i - 1, k]
+                B[i, r] -= total
+        solve_row(D[i], pivots[i], B, i)
     for i in range(n - 2, -1, -1):
         for r in range(b):
             total = 0.0
             for k in range(b):
-                total += U[i, r, k] * B[i + 1, k, 0]
-            B[i, r, 0] -= total
+                total += U[i, r, k] * B[i + 1, k]
+            B[i, r] -= total

@@ -17,13 +17,20 @@ Array = NDArray[np.float64]
 
 
 @kernel
-def hermite(x: float, length: float, N: Array, dN: Array) -> None:
-    """Write the four shape functions and their derivatives by arc length at `x` in [0, 1] into `N` and `dN`."""
+def hermite_values(x: float, length: float, N: Array) -> None:
+    """Write the four shape functions at `x` in [0, 1] into `N`."""
     x2 = x * x
     N[0] = 1.0 - 3.0 * x2 + 2.0 * x2 * x
     N[1] = length * (x - 2.0 * x2 + x2 * x)
     N[2] = 3.0 * x2 - 2.0 * x2 * x
     N[3] = length * (x2 * x - x2)
+
+
+@kernel
+def hermite(x: float, length: float, N: Array, dN: Array) -> None:
+    """Write the four shape functions and their derivatives by arc length at `x` in [0, 1] into `N` and `dN`."""
+    hermite_values(x, length, N)
+    x2 = x * x
     dN[0] = (6.0 * x2 - 6.0 * x) / length
     dN[1] = 1.0 - 4.0 * x + 3.0 * x2
     dN[2] = -dN[0]

@@ -28,6 +28,6 @@ class Factor:
 
     def solve(self, right: Array) -> Array:
         """Solution for `right` (n, 12)."""
-        B = np.ascontiguousarray(right, dtype=float).reshape(*right.shape, 1).copy()
+        B = np.array(right, dtype=float, order="C")
         solve_chain(self._blocks.D, self._blocks.U, self._blocks.L, self._pivots, B)
-        return B[:, :, 0]
+        return B

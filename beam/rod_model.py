@@ -18,7 +18,15 @@ from geometry.errors import SpecError
 
 Array = NDArray[np.float64]
 
-FIELDS = {"r": slice(0, 3), "r'": slice(3, 6), "theta": slice(6, 9), "theta'": slice(9, 12)}
+FIELDS = {
+    "r": slice(0, 3),
+    "x": slice(0, 1),
+    "y": slice(1, 2),
+    "z": slice(2, 3),
+    "r'": slice(3, 6),
+    "theta": slice(6, 9),
+    "theta'": slice(9, 12),
+}
 
 
 @dataclass(frozen=True)
@@ -108,7 +116,7 @@ class RodModel:
 
     def fresh_anchors(self) -> list[Array]:
         """Friction anchors before any contact, one array (n, points, 3) per surface."""
-        return [np.zeros((self.rod.lengths.size, s.points, 3)) for s in self.surfaces]
+        return [np.full((self.rod.lengths.size, s.points, 3), np.nan) for s in self.surfaces]
 
     def prescribe(self, t: float, q: Array, v: Array, a: Array) -> None:
         """Set held fields to their prescribed values at time `t`, in place."""

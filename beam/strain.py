@@ -33,28 +33,33 @@ def cross(a0: float, a1: float, a2: float, b0: float, b1: float, b2: float) -> t
 
 
 @kernel
-def strain(z: Array, E: Array) -> None:
-    """Write (Gamma, kappa) of z = (theta, theta', r') into `E` (6,)."""
+def strain(z: Array, a: float, b: float, c: float, E: Array) -> tuple[float, float, float, float, float, float]:
+    """Write (Gamma, kappa) of z = (theta, theta', r') into `E` (6,).
+
+    `a`, `b`, `c` are :func:`rotation_coefficients`. Returns theta x theta' and theta x (theta x theta').
+    """
     t0, t1, t2, u0, u1, u2, d0, d1, d2 = z[0], z[1], z[2], z[3], z[4], z[5], z[6], z[7], z[8]
-    a, b, c, _, _ = rotation_coefficients(t0 * t0 + t1 * t1 + t2 * t2)
     x0, x1, x2 = cross(t0, t1, t2, d0, d1, d2)
     y0, y1, y2 = cross(t0, t1, t2, x0, x1, x2)
     E[0] = d0 - a * x0 + b * y0 - 1.0
     E[1] = d1 - a * x1 + b * y1
     E[2] = d2 - a * x2 + b * y2
-    x0, x1, x2 = cross(t0, t1, t2, u0, u1, u2)
-    y0, y1, y2 = cross(t0, t1, t2, x0, x1, x2)
-    E[3] = u0 - b * x0 + c * y0
-    E[4] = u1 - b * x1 + c * y1
-    E[5] = u2 - b * x2 + c * y2
+    p0, p1, p2 = cross(t0, t1, t2, u0, u1, u2)
+    q0, q1, q2 = cross(t0, t1, t2, p0, p1, p2)
+    E[3] = u0 - b * p0 + c * q0
+    E[4] = u1 - b * p1 + c * q1
+    E[5] = u2 - b * p2 + c * q2
+    return p0, p1, p2, q0, q1, q2
 
 
 @kernel
-def strain_rate(z: Array, zdot: Array, E: Array, rate: Array) -> None:
-    """Write the time derivative of (Gamma, kappa) into `rate` (6,); `E` holds the strains of `z`."""
-    t0, t1, t2, u0, u1, u2 = z[0], z[1], z[2], z[3], z[4], z[5]
+def strain_rate(
+    z: Array, zdot: Array, a: float, b: float, c: float, db: float, dc: float, E: Array,
+    p0: float, p1: float, p2: float, q0: float, q1: float, q2: float, rate: Array,
+) -> None:  # fmt: skip
+    """Write the time derivative of (Gamma, kappa) into `rate` (6,); `E`, `p` and `q` come from :func:`strain`."""
+    t0, t1, t2 = z[0], z[1], z[2]
     s0, s1, s2, w0, w1, w2, v0, v1, v2 = zdot[0], zdot[1], zdot[2], zdot[3], zdot[4], zdot[5], zdot[6], zdot[7], zdot[8]
-    a, b, c, db, dc = rotation_coefficients(t0 * t0 + t1 * t1 + t2 * t2)
     x0, x1, x2 = cross(t0, t1, t2, s0, s1, s2)
     y0, y1, y2 = cross(t0, t1, t2, x0, x1, x2)
     o0, o1, o2 = s0 - b * x0 + c * y0, s1 - b * x1 + c * y1, s2 - b * x2 + c * y2
@@ -65,24 +70,23 @@ def strain_rate(z: Array, zdot: Array, E: Array, rate: Array) -> None:
     rate[1] = v1 - a * x1 + b * y1 - g1
     rate[2] = v2 - a * x2 + b * y2 - g2
     x0, x1, x2 = cross(t0, t1, t2, w0, w1, w2)
-    y0, y1, y2 = cross(t0, t1, t2, x0, x1, x2)
-    p0, p1, p2 = cross(t0, t1, t2, u0, u1, u2)
-    q0, q1, q2 = cross(t0, t1, t2, p0, p1, p2)
-    m0, m1, m2 = cross(s0, s1, s2, u0, u1, u2)
-    n0, n1, n2 = cross(t0, t1, t2, m0, m1, m2)
+    m0, m1, m2 = cross(s0, s1, s2, z[3], z[4], z[5])
+    n0, n1, n2 = cross(t0, t1, t2, x0 + m0, x1 + m1, x2 + m2)
     k0, k1, k2 = cross(s0, s1, s2, p0, p1, p2)
     spin = 2.0 * (t0 * s0 + t1 * s1 + t2 * s2)
-    rate[3] = w0 - b * (x0 + m0) + c * (y0 + n0 + k0) + spin * (dc * q0 - db * p0)
-    rate[4] = w1 - b * (x1 + m1) + c * (y1 + n1 + k1) + spin * (dc * q1 - db * p1)
-    rate[5] = w2 - b * (x2 + m2) + c * (y2 + n2 + k2) + spin * (dc * q2 - db * p2)
+    rate[3] = w0 - b * (x0 + m0) + c * (n0 + k0) + spin * (dc * q0 - db * p0)
+    rate[4] = w1 - b * (x1 + m1) + c * (n1 + k1) + spin * (dc * q1 - db * p1)
+    rate[5] = w2 - b * (x2 + m2) + c * (n2 + k2) + spin * (dc * q2 - db * p2)
 
 
 @kernel
-def force_of_section(z: Array, E: Array, S: Array, f: Array) -> None:
+def force_of_section(
+    z: Array, a: float, b: float, c: float, db: float, dc: float, E: Array,
+    p0: float, p1: float, p2: float, q0: float, q1: float, q2: float, S: Array, f: Array,
+) -> None:  # fmt: skip
     """Write the nine generalised forces that the section forces `S` (6,) exert on z = (theta, theta', r') into `f`."""
     t0, t1, t2, u0, u1, u2 = z[0], z[1], z[2], z[3], z[4], z[5]
     N0, N1, N2, M0, M1, M2 = S[0], S[1], S[2], S[3], S[4], S[5]
-    a, b, c, db, dc = rotation_coefficients(t0 * t0 + t1 * t1 + t2 * t2)
     x0, x1, x2 = cross(t0, t1, t2, N0, N1, N2)
     y0, y1, y2 = cross(t0, t1, t2, x0, x1, x2)
     f[6], f[7], f[8] = N0 + a * x0 + b * y0, N1 + a * x1 + b * y1, N2 + a * x2 + b * y2
@@ -92,8 +96,6 @@ def force_of_section(z: Array, E: Array, S: Array, f: Array) -> None:
     h0, h1, h2 = cross(N0, N1, N2, E[0] + 1.0, E[1], E[2])
     x0, x1, x2 = cross(t0, t1, t2, h0, h1, h2)
     y0, y1, y2 = cross(t0, t1, t2, x0, x1, x2)
-    p0, p1, p2 = cross(t0, t1, t2, u0, u1, u2)
-    q0, q1, q2 = cross(t0, t1, t2, p0, p1, p2)
     m0, m1, m2 = cross(u0, u1, u2, M0, M1, M2)
     tu = t0 * u0 + t1 * u1 + t2 * u2
     tM = t0 * M0 + t1 * M1 + t2 * M2
@@ -105,22 +107,30 @@ def force_of_section(z: Array, E: Array, S: Array, f: Array) -> None:
 
 
 @kernel
+def linear_law(C: Array, C_damping: Array, E0: Array, E: Array, rate: Array, S: Array) -> tuple[float, float]:
+    """Section forces `S` of the linear law with damping; returns stored energy and dissipated power per length."""
+    d0, d1, d2, d3, d4, d5 = E[0] - E0[0], E[1] - E0[1], E[2] - E0[2], E[3] - E0[3], E[4] - E0[4], E[5] - E0[5]
+    r0, r1, r2, r3, r4, r5 = rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]
+    stored = 0.0
+    dissipated = 0.0
+    for i in range(6):
+        elastic = (C[i, 0] * d0 + C[i, 1] * d1) + (C[i, 2] * d2 + C[i, 3] * d3) + (C[i, 4] * d4 + C[i, 5] * d5)
+        D = C_damping
+        viscous = (D[i, 0] * r0 + D[i, 1] * r1) + (D[i, 2] * r2 + D[i, 3] * r3) + (D[i, 4] * r4 + D[i, 5] * r5)
+        stored += 0.5 * elastic * (E[i] - E0[i])
+        dissipated += viscous * rate[i]
+        S[i] = elastic + viscous
+    return stored, dissipated
+
+
+@kernel
 def gauss_force(
     z: Array, zdot: Array, C: Array, C_damping: Array, E0: Array, E: Array, rate: Array, S: Array, f: Array
 ) -> tuple[float, float]:
     """Section forces `S` and generalised force `f` at one point; returns stored energy and dissipated power per length."""
-    strain(z, E)
-    strain_rate(z, zdot, E, rate)
-    stored = 0.0
-    dissipated = 0.0
-    for i in range(6):
-        elastic = 0.0
-        viscous = 0.0
-        for j in range(6):
-            elastic += C[i, j] * (E[j] - E0[j])
-            viscous += C_damping[i, j] * rate[j]
-        stored += 0.5 * elastic * (E[i] - E0[i])
-        dissipated += viscous * rate[i]
-        S[i] = elastic + viscous
-    force_of_section(z, E, S, f)
-    return stored, dissipated
+    a, b, c, db, dc = rotation_coefficients(z[0] * z[0] + z[1] * z[1] + z[2] * z[2])
+    p0, p1, p2, q0, q1, q2 = strain(z, a, b, c, E)
+    strain_rate(z, zdot, a, b, c, db, dc, E, p0, p1, p2, q0, q1, q2, rate)
+    energies = linear_law(C, C_damping, E0, E, rate, S)
+    force_of_section(z, a, b, c, db, dc, E, p0, p1, p2, q0, q1, q2, S, f)
+    return energies
