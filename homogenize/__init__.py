@@ -7,6 +7,7 @@ torsion) -> :class:`SectionStiffness`, with :func:`volume_average` for the modul
 
 from homogenize.cell_checks import Check, axial_bounds, check_cell
 from homogenize.helical_cell import HelicalCell, solve_helical_cell
+from homogenize.homogenization import Homogenization, homogenize_cable, slice_stiffness
 from homogenize.periodic_cell import PeriodicCell, solve_periodic_cell
 from homogenize.section_stiffness import ORDER, SectionInertia, SectionStiffness, pitch_average
 from homogenize.volume_average import VolumeAverage, volume_average
@@ -15,13 +16,16 @@ __all__ = [
     "ORDER",
     "Check",
     "HelicalCell",
+    "Homogenization",
     "PeriodicCell",
     "SectionInertia",
     "SectionStiffness",
     "VolumeAverage",
     "axial_bounds",
     "check_cell",
+    "homogenize_cable",
     "pitch_average",
+    "slice_stiffness",
     "solve_helical_cell",
     "solve_periodic_cell",
     "volume_average",

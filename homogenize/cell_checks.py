@@ -82,7 +82,9 @@ def check_cell(mesh: CrossSectionMesh, cell: HelicalCell) -> tuple[Check, ...]:
         ),
         Check("energy = work", f"strain energy and work differ by {balance:.1e}", bool(balance < ROUND_OFF)),
         Check(
-            "equilibrium", f"reactions at the pins {cell.reaction:.1e} of the nodal forces", cell.reaction < REACTION_LIMIT
+            "equilibrium",
+            f"reactions at the pins {cell.reaction:.1e} of the nodal forces",
+            cell.reaction < REACTION_LIMIT,
         ),
     )
 

@@ -8,8 +8,8 @@ M' = -e_z x T, in rotating components theta' = A theta. With v = X theta and psi
    E_2 X + (E_1^T - E_1) X A - E_0 X A^2 + E_1^T Z Y - E_0 Z Y A = 0, \qquad
    Z^T [E_0 Z Y + E_0 X A + E_1 X] = I .
 
-A has the eigenvalues 0 (N, M_z) and +-i tau_0 (bending, and shear as its generalised vector: the moment varies linearly
-under a shear force). So one real problem gives tension and torsion, one complex Hermitian problem of the same size gives bending
+A has the eigenvalues 0 (N, M_z) and +-i tau_0 (bending, and shear as its generalised vector: the moment varies
+linearly under a shear force). So one real problem gives tension and torsion, one complex Hermitian problem of the same size gives bending
 and shear, at any pitch. Without lay all four are real. The compliance is the energy of these fields per length,
 
 .. math::  F = X^T E_2 X + X^T E_1^T V + V^T E_1 X + V^T E_0 V, \qquad V = X A + Z Y, \qquad C = F^{-1} .
@@ -52,6 +52,7 @@ class HelicalCell:
     field : the finite element field
     stiffness : C, with the section standing as drawn (phase zero)
     X, V : (3n, 6) warping and axial derivative of the displacement per unit section force
+    X_shear, V_shear : (3n, 2) the same per unit mean shear stress xz and yz, see :mod:`homogenize.volume_average`
     reaction : largest relative reaction of the pinned unknowns (a check of equilibrium)
     """
 
@@ -59,6 +60,8 @@ class HelicalCell:
     stiffness: SectionStiffness
     X: FloatArray
     V: FloatArray
+    X_shear: FloatArray
+    V_shear: FloatArray
     reaction: float
 
     def strain(self, section_forces: FloatArray) -> FloatArray:
@@ -69,6 +72,10 @@ class HelicalCell:
     def stress(self, section_forces: FloatArray) -> FloatArray:
         """Local stress [Pa], shape (e, q, 6), order xx yy zz yz xz xy."""
         return np.matmul(self.field.elasticity[:, None], self.strain(section_forces)[..., None])[..., 0]
+
+    def shear_strain(self) -> FloatArray:
+        """Local strain, shape (e, q, 6, 2), per unit mean shear stress xz and yz [1/Pa]."""
+        return self.field.strain(self.X_shear, self.V_shear)
 
 
 @dataclass(frozen=True)
@@ -106,11 +113,14 @@ def solve_helical_cell(mesh: CrossSectionMesh) -> HelicalCell:
     E0, E1, E2 = field.matrices()
     pencil = _Pencil(E0, sp.csr_array(E1.T - E1), E1, E2, field.rigid_motion(), _free_unknowns(field), field.area**0.5)
     tau = mesh.twist_rate
-    loads, reaction = _solve_loads(pencil, tau)
-    X, V = _real_columns(loads, pencil.Z, tau)
-    F = _compliance(pencil, X, V)
-    C = np.linalg.inv(F)
-    return HelicalCell(field, SectionStiffness(0.5 * (C + C.T), field.area), X, V, reaction)
+    axial = _Solver(pencil, 0.0)
+    harmonic = axial if tau == 0.0 else _Solver(pencil, 1j * tau)
+    loads, reaction = _solve_loads(axial, harmonic)
+    X, V = _real_columns(loads, pencil.Z)
+    X_shear, V_shear, shear_reaction = _solve_uniform_shear(field, harmonic)
+    C = np.linalg.inv(_compliance(pencil, X, V))
+    stiffness = SectionStiffness(0.5 * (C + C.T), field.area)
+    return HelicalCell(field, stiffness, X, V, X_shear, V_shear, max(reaction, shear_reaction))
 
 
 def _free_unknowns(field: SectionField) -> NDArray[np.bool_]:
@@ -124,34 +134,62 @@ def _free_unknowns(field: SectionField) -> NDArray[np.bool_]:
     return free
 
 
-def _solve_loads(pencil: _Pencil, tau: float) -> tuple[dict[str, tuple], float]:
-    """Solutions (x, y, x' part) for N, M_z, M_+ and T_+."""
-    a = np.array([1.0, 1j, 0.0]) / np.sqrt(2)
-    zero3 = np.zeros(3)
-    n = pencil.Z.shape[0]
-    axial = _Solver(pencil, 0.0)
+CIRCULAR = np.array([1.0, 1j, 0.0]) / np.sqrt(2)
+"""A vector that turns with the section: L a = -i a, so that loads a exp(i tau_0 z) are constant in fixed axes."""
+
+COMPLEX_LOADS = {
+    "N": np.eye(6)[2],
+    "Mz": np.eye(6)[5],
+    "M+": np.concatenate([np.zeros(3), CIRCULAR]),
+    "T+": np.concatenate([CIRCULAR, np.zeros(3)]),
+}
+
+
+def _solve_loads(axial: _Solver, harmonic: _Solver) -> tuple[dict[str, tuple], float]:
+    """Solutions (x, y, XA part) for N, M_z, M_+ and T_+, and the largest relative reaction at the pins."""
+    pencil, lam = harmonic.pencil, harmonic.lam
     loads: dict[str, tuple] = {}
-    reaction = 0.0
-    for name, t in (("N", np.eye(6)[2]), ("Mz", np.eye(6)[5])):
-        x, y, r = axial.solve(np.zeros(n), t)
-        loads[name] = (x, y, 0 * x)
-        reaction = max(reaction, r)
-    lam = 1j * tau
-    harmonic = axial if tau == 0.0 else _Solver(pencil, lam)
-    x_M, y_M, r_M = harmonic.solve(np.zeros(n, complex), np.concatenate([zero3, a]))
+    nothing = np.zeros(pencil.Z.shape[0])
+    x_N, y_N, r_N = axial.solve(nothing, COMPLEX_LOADS["N"])
+    x_Mz, y_Mz, r_Mz = axial.solve(nothing, COMPLEX_LOADS["Mz"])
+    loads["N"], loads["Mz"] = (x_N, y_N, 0 * x_N), (x_Mz, y_Mz, 0 * x_Mz)
+    x_M, y_M, r_M = harmonic.solve(nothing.astype(complex), COMPLEX_LOADS["M+"])
     f = -1j * (pencil.skew @ x_M - 2 * lam * (pencil.E0 @ x_M)) + 1j * (pencil.E0 @ (pencil.Z @ y_M))
-    t = np.concatenate([a, zero3]) - 1j * (pencil.Z.T @ (pencil.E0 @ x_M))
+    t = COMPLEX_LOADS["T+"] - 1j * (pencil.Z.T @ (pencil.E0 @ x_M))
     x_T, y_T, r_T = harmonic.solve(f, t)
-    loads["M+"] = (x_M, y_M, lam * x_M)
-    loads["T+"] = (x_T, y_T, lam * x_T + 1j * x_M)
-    return loads, max(reaction, r_M, r_T)
+    loads["M+"], loads["T+"] = (x_M, y_M, lam * x_M), (x_T, y_T, lam * x_T + 1j * x_M)
+    return loads, max(r_N, r_Mz, r_M, r_T)
+
+
+def _solve_uniform_shear(field: SectionField, harmonic: _Solver) -> tuple[FloatArray, FloatArray, float]:
+    """Fields of the tractions s.n of a uniform shear stress s on the sides: the moment stays zero, every section is alike.
+
+    The nodal forces are int (B_s + lam B_z)^H s; the section carries the shear force A s.
+    """
+    lam = harmonic.lam
+    a = CIRCULAR
+    stress = np.array([0, 0, 0, a[1], a[0], 0])
+    f_s, f_z = (_nodal_forces(field, B, stress) for B in (field.strain_s, field.strain_z))
+    x, y, reaction = harmonic.solve(f_s - lam * f_z, harmonic.pencil.Z.T @ f_z)
+    v = lam * x + harmonic.pencil.Z @ y
+    inverse = np.linalg.inv(np.array([a[:2], a[:2].conj()]).T)
+    X, V = (np.array([w, w.conj()]).T @ inverse for w in (x, v))
+    return np.ascontiguousarray(X.real), np.ascontiguousarray(V.real), reaction
+
+
+def _nodal_forces(field: SectionField, B: FloatArray, stress: NDArray) -> ComplexArray:
+    """Nodal forces int B^T stress of a uniform stress."""
+    local = np.einsum("eq,eqik,i->ek", field.weight, np.broadcast_to(B, (len(field.weight), *B.shape[1:])), stress)
+    f = np.zeros(field.unknowns, dtype=complex)
+    np.add.at(f, field.element_dofs.ravel(), local.ravel())
+    return f
 
 
 class _Solver:
     """Factor of K(lam) = E2 + lam (E1^T - E1) - lam^2 E0 without the pinned unknowns, with the six strains y by Schur complement."""
 
     def __init__(self, pencil: _Pencil, lam: complex) -> None:
-        self.pencil = pencil
+        self.pencil, self.lam = pencil, lam
         K = pencil.E2 if lam == 0 else pencil.E2 + lam * pencil.skew - lam**2 * pencil.E0
         self.K = sp.csr_array(K)
         R = pencil.E1.T @ pencil.Z - lam * (pencil.E0 @ pencil.Z)
@@ -175,7 +213,7 @@ class _Solver:
         free = self.pencil.free
         b = np.ascontiguousarray(rhs[free].astype(out.dtype))
         if np.iscomplexobj(b) and not np.iscomplexobj(self.K.data):
-            out[free] = self.factor.solve(b.real.copy()) + 1j * self.factor.solve(b.imag.copy())
+            out[free] = self.factor.solve(np.real(b).copy()) + 1j * self.factor.solve(np.imag(b).copy())
         else:
             out[free] = self.factor.solve(b)
         return out
@@ -198,24 +236,16 @@ class _Solver:
         return x, y, reaction
 
 
-def _real_columns(loads: dict[str, tuple], Z: FloatArray, tau: float) -> tuple[FloatArray, FloatArray]:
+def _real_columns(loads: dict[str, tuple], Z: FloatArray) -> tuple[FloatArray, FloatArray]:
     """X and V = XA + ZY per unit (T_x, T_y, N, M_x, M_y, M_z) from the solutions per complex load."""
-    a = np.array([1.0, 1j, 0.0]) / np.sqrt(2)
-    zero3 = np.zeros(3)
-    q = {
-        "N": np.eye(6)[2],
-        "Mz": np.eye(6)[5],
-        "M+": np.concatenate([zero3, a]),
-        "T+": np.concatenate([a, zero3]),
-    }
     columns, values_x, values_v = [], [], []
     for name, (x, y, xa) in loads.items():
         v = xa + Z @ y
-        columns.append(q[name])
+        columns.append(COMPLEX_LOADS[name])
         values_x.append(x)
         values_v.append(v)
         if name.endswith("+"):
-            columns.append(q[name].conj())
+            columns.append(COMPLEX_LOADS[name].conj())
             values_x.append(x.conj())
             values_v.append(v.conj())
     inverse = np.linalg.inv(np.array(columns).T)

@@ -57,7 +57,7 @@ def stiffness_matrix(mesh: SliceMesh) -> sp.bsr_array:
 def region_volumes(mesh: SliceMesh) -> NDArray[np.float64]:
     """Volume of each region [m^3], shape (regions,)."""
     _, weight = _gradients(mesh)
-    return np.bincount(mesh.region_of, weight.sum(axis=1), len(mesh.regions))
+    return np.asarray(np.bincount(mesh.region_of, weight.sum(axis=1), len(mesh.regions)), dtype=float)
 
 
 def _gradients(mesh: SliceMesh) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -88,8 +89,8 @@ def solve_periodic_cell(
     Q = np.array([[np.cos(angle), -np.sin(angle), 0.0], [np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]])
     R, free = reduction(len(mesh.points), mesh.bottom, mesh.top, Q)
     macro = _macroscopic_fields(mesh.points)
-    reduced = sp.csr_array(R.T @ (K.tocsr() @ R)).tobsr(blocksize=(3, 3))
-    tell(0.3, f"building the multigrid hierarchy for {reduced.shape[0]} unknowns")
+    reduced = sp.bsr_array(sp.csr_array(R.T @ (K.tocsr() @ R)), blocksize=(3, 3))
+    tell(0.3, f"building the multigrid hierarchy for {3 * len(free)} unknowns")
     solve = _multigrid(reduced, mesh.points[free])
     total, iterations, residuals = [], [], []
     for case, name in enumerate(("tension", "torsion")):
@@ -108,7 +109,11 @@ def solve_periodic_cell(
     C = U @ (K @ U.T) / mesh.height
     tell(1.0, "done")
     return PeriodicCell(
-        0.5 * (C + C.T), reduced.shape[0], (iterations[0], iterations[1]), (residuals[0], residuals[1]), U.reshape(2, -1, 3)
+        0.5 * (C + C.T),
+        3 * len(free),
+        (iterations[0], iterations[1]),
+        (residuals[0], residuals[1]),
+        U.reshape(2, -1, 3),
     )
 
 
@@ -141,10 +146,10 @@ def _multigrid(K: sp.bsr_array, points: NDArray[np.float64]) -> Callable:
     import pyamg
 
     matrix = sp.bsr_matrix(K)
-    hierarchy = pyamg.smoothed_aggregation_solver(
+    hierarchy: Any = pyamg.smoothed_aggregation_solver(
         matrix,
         B=_rigid_modes(points),
-        strength=("symmetric", {"theta": 0.1}),
+        strength=("symmetric", {"theta": 0.1}),  # pyright: ignore[reportArgumentType]
         smooth=("jacobi", {"omega": 4.0 / 3.0, "weighting": "block"}),
         presmoother=("block_gauss_seidel", {"sweep": "symmetric"}),
         postsmoother=("block_gauss_seidel", {"sweep": "symmetric"}),
@@ -154,7 +159,7 @@ def _multigrid(K: sp.bsr_array, points: NDArray[np.float64]) -> Callable:
 
     def solve(rhs: NDArray[np.float64], tolerance: float, max_iterations: int) -> tuple[NDArray, int, float]:
         history: list[float] = []
-        v = hierarchy.solve(rhs, tol=tolerance, maxiter=max_iterations, accel="cg", residuals=history)
+        v = np.asarray(hierarchy.solve(rhs, tol=tolerance, maxiter=max_iterations, accel="cg", residuals=history))
         residual = float(np.linalg.norm(rhs - matrix @ v) / np.linalg.norm(rhs))
         return v, len(history) - 1, residual
 

@@ -100,8 +100,10 @@ class SectionField:
 
     def matrices(self) -> tuple[sp.csr_array, sp.csr_array, sp.csr_array]:
         """E0 = int B_z^T C B_z, E1 = int B_z^T C B_s, E2 = int B_s^T C B_s, each (3n, 3n), sparse."""
-        return _gram(self, self.strain_z, self.strain_z), _gram(self, self.strain_z, self.strain_s), _gram(
-            self, self.strain_s, self.strain_s
+        return (
+            _gram(self, self.strain_z, self.strain_z),
+            _gram(self, self.strain_z, self.strain_s),
+            _gram(self, self.strain_s, self.strain_s),
         )
 
     def rigid_motion(self) -> FloatArray:

@@ -63,7 +63,9 @@ class SectionStiffness:
             raise SpecError(f"the section stiffness for {ORDER[i]} is {C[i, i]:g}; it must be positive.")
         skew = np.abs((C - C.T) / np.outer(scale, scale)).max()
         if skew > 1e-6:
-            raise SpecError(f"a section stiffness must be symmetric; the largest difference is {skew:.1e} of the diagonal.")
+            raise SpecError(
+                f"a section stiffness must be symmetric; the largest difference is {skew:.1e} of the diagonal."
+            )
         C = 0.5 * (C + C.T)
         if np.linalg.eigvalsh(C / np.outer(scale, scale)).min() <= 0:
             raise SpecError("the section stiffness is not positive definite: some section strain would release energy.")
@@ -78,7 +80,9 @@ class SectionStiffness:
         return cls(np.diag([GA_x, GA_y, EA, EI_x, EI_y, GJ]).astype(float), area)
 
     @classmethod
-    def solid_circle(cls, *, E: float, G_yoz: float, G_xoz: float, diameter: float, shear_factor: float = 0.9) -> SectionStiffness:
+    def solid_circle(
+        cls, *, E: float, G_yoz: float, G_xoz: float, diameter: float, shear_factor: float = 0.9
+    ) -> SectionStiffness:
         """Solid circular section of diameter [m] with given moduli [Pa], as the equivalent beam of Ge et al. (2023).
 
         G_yoz goes with shear along x (plane of the published +-X tests), G_xoz with shear along y; GJ uses their mean,
@@ -99,7 +103,7 @@ class SectionStiffness:
     @property
     def compliance(self) -> NDArray[np.float64]:
         """F = C^-1, shape (6, 6)."""
-        return np.linalg.inv(self.C)
+        return np.asarray(np.linalg.inv(self.C), dtype=float)
 
     @property
     def EA_blocked_twist(self) -> float:

@@ -5,14 +5,20 @@ stress over the mean strain, :math:`\langle q \rangle = \frac1V \sum_i V_i q_i`.
 up to its angle, so the volume average over a piece of cable is the area average over the section.
 
 * Axial: :math:`E = \langle\sigma_{zz}\rangle / \langle\varepsilon_{zz}\rangle`, once with the twist blocked, once with the torque zero.
-* Shear: under a shear force T along x, at the section where its moment vanishes,
-  :math:`G_{yoz} = \langle\tau_{xz}\rangle / \langle\gamma_{xz}\rangle` with :math:`\gamma_{xz} = \partial_z u_x + \partial_x u_z`. The section may
-  warp freely; its mean rotation is the area mean of :math:`\partial_x u_z`, so that in the frame in which the mean rotation is
-  zero the mean shear strain is the slope of the axis. G_xoz: the same along y. The source pairs the +-X tests with the plane
-  yoz and the +-Y tests with xoz.
+* Shear: the sides of the cable carry the tractions of a uniform shear stress :math:`\Sigma_{xz}`, so that every section has
+  the shear force :math:`A \Sigma_{xz}`, no bending moment, and :math:`\langle\tau_{xz}\rangle = \Sigma_{xz}`. Then
+  :math:`G_{yoz} = \langle\tau_{xz}\rangle / \langle\gamma_{xz}\rangle` with
+  :math:`\gamma_{xz} = \partial_z u_x + \partial_x u_z`; G_xoz the same along y.
+  The section warps freely (the warping is finite and the same in every section); its mean rotation is the area mean of
+  :math:`\partial_x u_z`, so that in the frame in which the mean rotation is zero the mean shear strain is the slope of the axis.
+  For these loads :math:`\langle\sigma : \varepsilon\rangle = \langle\sigma\rangle : \langle\varepsilon\rangle` (Hill), hence G > 0.
+  The source pairs the +-X tests with the plane yoz and the +-Y tests with xoz.
 
-The mean shear strains are a 2x2 matrix S per unit shear force. A section turned by the angle phi has R S R^T; the average
-over a pitch of the cable is the average over phi, (tr S / 2) times the unit matrix, for both planes the same.
+This G is a property of the material mix. The shear stiffness of the beam, GA, is another quantity: it includes the moment that a
+shear force builds up along the cable, see :mod:`homogenize.helical_cell`.
+
+The mean shear strains are a symmetric 2x2 matrix S per unit mean shear stress. A section turned by the angle phi has
+R S R^T; the average over a pitch of the cable is tr S / 2 for both planes.
 """
 
 from __future__ import annotations
@@ -64,11 +70,9 @@ def volume_average(cell: HelicalCell) -> VolumeAverage:
     torque = np.eye(6)[5]
     F = cell.stiffness.compliance
     held = tension - F[5, 2] / F[5, 5] * torque  # the torque that keeps the twist zero
-    shear = np.zeros((2, 2))
-    for column in (0, 1):
-        force = np.eye(6)[column]
-        stress, strain = _means(cell, force)
-        shear[:, column] = strain[[4, 3]] / stress[4 - column]
+    weight = cell.field.weight / cell.field.area
+    shear = np.einsum("eq,eqic->ic", weight, cell.shear_strain())[[4, 3]]
+    shear = 0.5 * (shear + shear.T)
     mean = float(1.0 / (0.5 * np.trace(shear)))
     return VolumeAverage(_axial(cell, held), _axial(cell, tension), mean, mean, shear)
 

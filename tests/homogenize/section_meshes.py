@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import skfem
 
@@ -11,12 +13,17 @@ from geometry.material import Material
 
 def regions(*constants: tuple[float, float]) -> tuple[Region, ...]:
     """One region for each (E, nu)."""
-    return tuple(Region(f"part {i}", "conductor", Material(f"m{i}", E, nu, 1000.0), float("nan")) for i, (E, nu) in enumerate(constants))
+    return tuple(
+        Region(f"part {i}", "conductor", Material(f"m{i}", E, nu, 1000.0), float("nan"))
+        for i, (E, nu) in enumerate(constants)
+    )
 
 
 def rectangle(nx, ny, width, height, *constants, split_x=None, twist_rate=0.0) -> CrossSectionMesh:
     """Rectangle centred on the axis, triangles; the second material where x > split_x."""
-    m = skfem.MeshTri.init_tensor(np.linspace(-width / 2, width / 2, nx + 1), np.linspace(-height / 2, height / 2, ny + 1))
+    m = skfem.MeshTri.init_tensor(
+        np.linspace(-width / 2, width / 2, nx + 1), np.linspace(-height / 2, height / 2, ny + 1)
+    )
     x = m.p[:, m.t].mean(axis=1)[0]
     region_of = (x > split_x).astype(int) if split_x is not None else np.zeros(m.t.shape[1], dtype=int)
     return CrossSectionMesh(m.p.T.copy(), m.t.T.astype(int), "triangle", region_of, regions(*constants), twist_rate)
@@ -29,7 +36,9 @@ def rings(radii, *constants, per_ring=2, around=24, centre=(0.0, 0.0), twist_rat
     `shape` maps polar (rho, phi) to the plane; a circle if not given.
     """
     tube = len(radii) == len(constants) + 1
-    edges = np.concatenate([np.linspace(a, b, per_ring + 1)[(0 if i == 0 else 1) :] for i, (a, b) in enumerate(_layers(radii, tube))])
+    edges = np.concatenate(
+        [np.linspace(a, b, per_ring + 1)[(0 if i == 0 else 1) :] for i, (a, b) in enumerate(_layers(radii, tube))]
+    )
     layer_of = np.repeat(np.arange(len(constants)), per_ring)
     shape = shape or (lambda rho, phi: (centre[0] + rho * np.cos(phi), centre[1] + rho * np.sin(phi)))
     points: dict[tuple[int, int], int] = {}
@@ -62,7 +71,9 @@ def rings(radii, *constants, per_ring=2, around=24, centre=(0.0, 0.0), twist_rat
                 mids = [middle(p, q) for p, q in ((t[0], t[1]), (t[1], t[2]), (t[2], t[0]))]
                 cells.append([*(node(*p) for p in t), *mids])
                 region_of.append(layer)
-    return CrossSectionMesh(np.array(coordinates), np.array(cells), "triangle6", np.array(region_of), regions(*constants), twist_rate)
+    return CrossSectionMesh(
+        np.array(coordinates), np.array(cells), "triangle6", np.array(region_of), regions(*constants), twist_rate
+    )
 
 
 def _between(p, q, solid):
@@ -72,14 +83,19 @@ def _between(p, q, solid):
 
 
 def _layers(radii, tube):
-    return list(zip(radii[:-1], radii[1:], strict=True)) if tube else list(zip((0.0, *radii[:-1]), radii, strict=True))
+    return list(itertools.pairwise(radii)) if tube else list(zip((0.0, *radii[:-1]), radii, strict=True))
 
 
 def linear(section: CrossSectionMesh) -> CrossSectionMesh:
     """The same section with straight three-node triangles."""
     corners, numbers = np.unique(section.cells[:, :3], return_inverse=True)
     return CrossSectionMesh(
-        section.points[corners], numbers.reshape(-1, 3), "triangle", section.region_of, section.regions, section.twist_rate
+        section.points[corners],
+        numbers.reshape(-1, 3),
+        "triangle",
+        section.region_of,
+        section.regions,
+        section.twist_rate,
     )
 
 
@@ -93,8 +109,15 @@ def swept(section: CrossSectionMesh, height: float, layers: int) -> SliceMesh:
         points.append(np.column_stack([section.points @ Q.T, np.full(n, z)]))
     cells = np.concatenate([np.hstack([section.cells + k * n, section.cells + (k + 1) * n]) for k in range(layers)])
     return SliceMesh(
-        np.concatenate(points), cells, "wedge", np.tile(section.region_of, layers), section.regions, section.twist_rate, height,
-        np.arange(n), np.arange(n) + layers * n,
+        np.concatenate(points),
+        cells,
+        "wedge",
+        np.tile(section.region_of, layers),
+        section.regions,
+        section.twist_rate,
+        height,
+        np.arange(n),
+        np.arange(n) + layers * n,
     )
 
 

@@ -30,6 +30,7 @@ def test_volume_averages_of_one_material_are_its_moduli():
 def test_small_pitch_limit_is_the_prismatic_section():
     """tau -> 0: the helical problem with a pitch of 1e6 radii gives the straight one."""
     straight, long = (
-        solve_helical_cell(rings((0.5, 1.0), (100.0, 0.3), (1.0, 0.45), twist_rate=tau)).stiffness.C for tau in (0.0, 6e-6)
+        solve_helical_cell(rings((0.5, 1.0), (100.0, 0.3), (1.0, 0.45), twist_rate=tau)).stiffness.C
+        for tau in (0.0, 6e-6)
     )
     np.testing.assert_allclose(np.diag(long), np.diag(straight), rtol=1e-6)

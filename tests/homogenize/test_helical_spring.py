@@ -6,7 +6,11 @@ from section_meshes import rings, wire_trace
 
 from homogenize import pitch_average, solve_helical_cell
 
-TABLE = {80: (1.058528e-3, -5.381883e-4, 0.1354339), 60: (3.245642e-3, -3.922058e-3, 0.3700409), 45: (4.907377e-3, -6.400926e-3, 0.4912711)}
+TABLE = {
+    80: (1.058528e-3, -5.381883e-4, 0.1354339),
+    60: (3.245642e-3, -3.922058e-3, 0.3700409),
+    45: (4.907377e-3, -6.400926e-3, 0.4912711),
+}
 
 
 def kirchhoff(beta, r, a, nu=0.3):

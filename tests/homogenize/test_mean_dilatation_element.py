@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 import skfem
+from section_meshes import regions
 
 from geometry.cell_mesh import SliceMesh
 from homogenize.mean_dilatation import region_volumes, stiffness_matrix
-from section_meshes import regions
 
 
 def distorted_cube(kind: str) -> SliceMesh:
@@ -20,7 +20,9 @@ def distorted_cube(kind: str) -> SliceMesh:
     cells = np.concatenate([np.hstack([plane.t.T + k * m, plane.t.T + (k + 1) * m]) for k in range(n)]).astype(int)
     inside = ((points > 1e-9) & (points < 1 - 1e-9)).all(axis=1)
     points[inside] += 0.05 * np.random.default_rng(1).standard_normal((inside.sum(), 3))
-    return SliceMesh(points, cells, kind, np.zeros(len(cells), int), regions((2.0, 0.49)), 0.0, 1.0, np.array([0]), np.array([0]))
+    return SliceMesh(
+        points, cells, kind, np.zeros(len(cells), int), regions((2.0, 0.49)), 0.0, 1.0, np.array([0]), np.array([0])
+    )
 
 
 @pytest.mark.parametrize("kind", ["hexahedron", "wedge"])
