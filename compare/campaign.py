@@ -162,6 +162,8 @@ def _table_paths(folder: Path, listed: tuple[ListedExperiment, ...]) -> dict[str
             raise SpecError(f'{where}: "{row.file}" is already the table of {twin}; every experiment has its own.')
         if not path.exists():
             raise SpecError(f'{where}: "{row.file}" is not in the campaign folder.')
+        if not path.is_file():
+            raise SpecError(f'{where}: "{row.file}" is not a file.')
         paths[row.id] = path
     return paths
 

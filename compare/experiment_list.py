@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import csv
+import difflib
 import io
-import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from compare.kinds import CONDITIONS, DIRECTIONS, KINDS, SETS
-from compare.text_file import decode, parse_column, separator_hint, split_header, suggestion
+from compare.text_file import decode, number_defect, parse_column, separator_hint, split_header, suggestion
 from geometry.errors import SpecError
 from geometry.units import conversion, si_unit
 
@@ -55,14 +55,12 @@ def read_experiment_list(raw: bytes) -> tuple[ListedExperiment, ...]:
     text = decode(raw, FILE)
     head, _, body = text.partition("\n")
     cells = split_header(head, FILE)
-    for name in _REQUIRED:
-        if name not in cells:
-            raise SpecError(f'{FILE}, row 1: the column "{name}" is missing.{separator_hint(head)}')
+    _require_columns(cells, head)
     conditions = _conditions(cells)
     if not body:
         raise SpecError(f"{FILE}: there is a header but no experiment.")
     listed = []
-    for row, found in enumerate(csv.reader(io.StringIO(body)), start=2):
+    for row, found in _rows(body):
         if len(found) != len(cells):
             raise SpecError(f"{FILE}, row {row}: {len(found)} cell(s), but the header has {len(cells)} columns.")
         listed.append(_experiment(row, dict(zip(cells, (cell.strip() for cell in found), strict=True)), conditions))
@@ -70,6 +68,24 @@ def read_experiment_list(raw: bytes) -> tuple[ListedExperiment, ...]:
     for column in ("repeat_of", "continues"):
         _check_references(listed, column)
     return tuple(listed)
+
+
+def _require_columns(cells: list[str], head: str) -> None:
+    for name in _REQUIRED:
+        if name not in cells:
+            near = difflib.get_close_matches(name, [c for c in cells if c not in _OPTIONAL], n=1, cutoff=0.75)
+            hint = f' Is "{near[0]}" meant?' if near and near[0] not in _REQUIRED else separator_hint(head)
+            raise SpecError(f'{FILE}, row 1: the column "{name}" is missing.{hint}')
+
+
+def _rows(body: str) -> Iterator[tuple[int, list[str]]]:
+    """Cells of every row with its line in the file."""
+    reader = csv.reader(io.StringIO(body))
+    try:
+        for found in reader:
+            yield reader.line_num + 1, found
+    except csv.Error as error:
+        raise SpecError(f"{FILE}, row {reader.line_num + 1}: the row cannot be read ({error}).") from None
 
 
 def _conditions(cells: list[str]) -> list[_Condition]:
@@ -147,12 +163,9 @@ def _value(row: int, condition: _Condition, cell: str) -> float | None:
     if not cell:
         return None
     where = f'{FILE}, row {row}, column "{condition.column}"'
-    try:
-        value = condition.factor * float(cell) + condition.offset
-    except ValueError:
-        raise SpecError(f'{where}: "{cell}" is not a number; leave the cell empty where it was not recorded.') from None
-    if not math.isfinite(value):
-        raise SpecError(f'{where}: "{cell}" is not a finite number; leave the cell empty where it was not recorded.')
+    if problem := number_defect(cell):
+        raise SpecError(f"{where}: {problem}; leave the cell empty where it was not recorded.")
+    value = condition.factor * float(cell) + condition.offset
     if condition.name == "specimen length" and value <= 0:
         raise SpecError(f"{where}: a specimen length must be positive, found {cell}.")
     if condition.name == "temperature" and value < 0:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import csv
 import io
-import re
 from collections.abc import Mapping
 
 import numpy as np
@@ -16,12 +15,9 @@ from numpy.typing import NDArray
 
 from compare.experiment import Channel, Record
 from compare.kinds import KINDS, PATHS_OF_A_LENGTH, Kind, Quantity, allowed_channels, channel_quantity, station
-from compare.text_file import decode, parse_column, separator_hint, split_header, suggestion
+from compare.text_file import decode, number_defect, parse_column, separator_hint, split_header, suggestion
 from geometry.errors import SpecError
 from geometry.units import conversion, si_unit
-
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
-_NOT_FINITE = {"nan", "inf", "infinity"}
 
 
 def read_record(raw: bytes, name: str, kind: str, control: str | None, conditions: Mapping[str, float]) -> Record:
@@ -177,13 +173,8 @@ def _blame(body: str, cells: list[str], file: str) -> None:
 
 
 def _defect(cell: str) -> str:
-    if not cell:
-        return "the cell is empty; leave the whole row out where a channel was not recorded"
-    if cell.lower().lstrip("+-") in _NOT_FINITE:
-        return f'"{cell}" is not a finite number; leave the whole row out'
-    if not _NUMBER.fullmatch(cell):
-        return f'"{cell}" is not a number'
-    return "" if np.isfinite(float(cell)) else f'"{cell}" is too large for a number'
+    problem = number_defect(cell) if cell else "the cell is empty"
+    return f"{problem}; leave the whole row out where a channel was not recorded" if problem else ""
 
 
 def _require_running_forwards(time: NDArray[np.float64], written: NDArray[np.float64], column: str, file: str) -> None:

@@ -5,12 +5,16 @@ from __future__ import annotations
 import csv
 import difflib
 import hashlib
+import math
 import re
 from collections.abc import Iterable
 from pathlib import Path
 
 from geometry.errors import SpecError
 
+_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
+_NOT_FINITE = {"nan", "inf", "infinity"}
+_MOST_NAMES = 12
 _HEADER = re.compile(r"(?P<name>[^\[\]]+?)\s*\[(?P<unit>[^\[\]]*)\]")
 
 
@@ -79,7 +83,23 @@ def suggestion(word: str, known: Iterable[str]) -> str:
     """`` did you mean "bending"?`` for a near miss, the list of what is known otherwise."""
     known = list(known)
     close = difflib.get_close_matches(word, known, n=1, cutoff=0.75)
-    return f'did you mean "{close[0]}"?' if close else f"known are {', '.join(known)}."
+    if close and close[0] != word:
+        return f'did you mean "{close[0]}"?'
+    more = f" and {len(known) - _MOST_NAMES} more" if len(known) > _MOST_NAMES else ""
+    return f"known are {', '.join(known[:_MOST_NAMES])}{more}."
+
+
+def number_defect(cell: str) -> str:
+    """What keeps a cell that is not empty from being a finite decimal number, as words; empty if nothing does.
+
+    >>> number_defect("1.5e3"), number_defect("1,5")
+    ('', '"1,5" is not a number')
+    """
+    if cell.lower().lstrip("+-") in _NOT_FINITE:
+        return f'"{cell}" is not a finite number'
+    if not _NUMBER.fullmatch(cell):
+        return f'"{cell}" is not a number'
+    return "" if math.isfinite(float(cell)) else f'"{cell}" is too large for a number'
 
 
 def _separator_hint(line: str) -> str:
