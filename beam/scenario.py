@@ -1,0 +1,302 @@
+"""A towing scenario: the numbers of a TOML file, checked, each with its status and source.
+
+Every entry of the file is a table ``{ value = "16 m", status = "assumed", range = ["12 m", "40 m"], source = "..." }``.
+The status is ``published``, ``deduced`` or ``assumed`` (then with the range to sweep); a value that was set for one run only
+is ``chosen``. Whatever cannot be
+understood or cannot be true becomes one sentence that names the file and the key.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+
+from beam.motion import SpeedRamp
+from geometry.errors import SpecError
+from geometry.units import read_quantity
+from homogenize.section_stiffness import SectionInertia, SectionStiffness
+
+STATUSES = ("published", "deduced", "assumed", "chosen")
+ENTRY_KEYS = ("value", "status", "source", "range")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One number of a scenario: `value` in SI, as it was written, and where it comes from."""
+
+    value: float
+    unit: str
+    text: str
+    status: str
+    source: str
+    range: tuple[float, float] | None = None
+
+
+def read_entry(raw: object, unit: str, low: float, high: float) -> Entry:
+    """Entry from the table in a file; its value must lie in [low, high] and in its own range.
+
+    Raises
+    ------
+    SpecError
+        With the reason, without the place (the caller knows it).
+
+    Examples
+    --------
+    >>> read_entry({"value": "16 m", "status": "published", "source": "drawing"}, "m", 0, 100).value
+    16.0
+    """
+    if isinstance(raw, Entry):
+        return raw
+    if not isinstance(raw, dict):
+        raise SpecError('write it as a table: { value = "1 m", status = "assumed", range = [...], source = "..." }.')
+    unknown = sorted(set(raw) - set(ENTRY_KEYS))
+    if unknown:
+        raise SpecError(f"unknown key {unknown[0]!r}; an entry has the keys {', '.join(ENTRY_KEYS)}.")
+    for key in ("value", "status", "source"):
+        if key not in raw:
+            raise SpecError(f"the key {key!r} is missing; every entry states value, status and source.")
+    status, source = raw["status"], raw["source"]
+    if status not in STATUSES:
+        raise SpecError(f"status {status!r} is not one of {', '.join(STATUSES)}.")
+    if not isinstance(source, str) or not source.strip():
+        raise SpecError("the source is empty; say where the number comes from.")
+    value = read_quantity(raw["value"], unit, "value")
+    bounds = _read_range(raw.get("range"), unit, status)
+    if not low <= value <= high:
+        raise SpecError(f"{raw['value']} is outside what can be computed, {low:g} to {high:g} {unit}.")
+    if bounds is not None and not bounds[0] <= value <= bounds[1]:
+        raise SpecError(f"{raw['value']} lies outside its own range {raw['range'][0]} to {raw['range'][1]}.")
+    return Entry(value, unit, str(raw["value"]), status, source, bounds)
+
+
+def _read_range(raw: object, unit: str, status: str) -> tuple[float, float] | None:
+    if raw is None:
+        if status == "assumed":
+            raise SpecError('an assumed value needs the range to sweep, such as range = ["1 m", "2 m"].')
+        return None
+    if not isinstance(raw, list) or len(raw) != 2:
+        raise SpecError("a range has two ends.")
+    low, high = (read_quantity(x, unit, "range") for x in raw)
+    if low > high:
+        raise SpecError(f"the range {raw[0]} to {raw[1]} is upside down.")
+    return low, high
+
+
+def quantity(unit: str, low: float, high: float) -> BeforeValidator:
+    """Reader of an entry in `unit`, between `low` and `high`."""
+    return BeforeValidator(lambda raw: read_entry(raw, unit, low, high))
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
+
+
+class PublishedConstants(_Part):
+    """Moduli of the equivalent solid circle."""
+
+    E: Annotated[Entry, quantity("Pa", 1e3, 1e13)]
+    G_yoz: Annotated[Entry, quantity("Pa", 1e3, 1e13)]
+    G_xoz: Annotated[Entry, quantity("Pa", 1e3, 1e13)]
+
+
+class Cable(_Part):
+    """The rod: size, mass, mesh, damping."""
+
+    diameter: Annotated[Entry, quantity("m", 1e-3, 1.0)]
+    mass_per_length: Annotated[Entry, quantity("kg/m", 1e-3, 1e3)]
+    clamp_mass_per_length: Annotated[Entry, quantity("kg/m", 0.0, 1e3)]
+    length: Annotated[Entry, quantity("m", 0.1, 1e4)]
+    elements: Annotated[Entry, quantity("1", 8, 20000)]
+    damping_time_axial: Annotated[Entry, quantity("s", 0.0, 1.0)]
+    damping_time_bending: Annotated[Entry, quantity("s", 0.0, 1.0)]
+
+
+class Layout(_Part):
+    """Where the cable lies at the start."""
+
+    bend_radius: Annotated[Entry, quantity("m", 0.01, 100.0)]
+    upper_strand: Annotated[Entry, quantity("m", 0.0, 1e4)]
+    inclination: Annotated[Entry, quantity("rad", -np.pi / 3, np.pi / 3)]
+
+
+class Drive(_Part):
+    """Shearer and trolley."""
+
+    speed: Annotated[Entry, quantity("m/s", 1e-4, 10.0)]
+    trolley_ratio: Annotated[Entry, quantity("1", 0.0, 1.0)]
+    ramp_start: Annotated[Entry, quantity("s", 0.0, 1e3)]
+    ramp_end: Annotated[Entry, quantity("s", 1e-3, 1e3)]
+
+
+class Contact(_Part):
+    """Trough and roller."""
+
+    friction: Annotated[Entry, quantity("1", 0.0, 2.0)]
+    stiffness: Annotated[Entry, quantity("N/m^2", 1e3, 1e10)]
+    roller_stiffness: Annotated[Entry, quantity("N/m^2", 1e3, 1e10)]
+    damping_time: Annotated[Entry, quantity("s", 0.0, 1.0)]
+
+
+class TimeSpan(_Part):
+    """Length of the run, output interval, largest step."""
+
+    duration: Annotated[Entry, quantity("s", 1e-2, 1e5)]
+    frame: Annotated[Entry, quantity("s", 1e-3, 1e3)]
+    largest_step: Annotated[Entry, quantity("s", 1e-5, 0.1)]
+
+
+class PublishedResults(_Part):
+    """What the source reports; shown, never used."""
+
+    node_54_Fx_plateau: Annotated[Entry, quantity("N", -1e6, 1e6)] | None = None
+    node_220_Fy_plateau: Annotated[Entry, quantity("N", -1e6, 1e6)] | None = None
+    node_370_Fx_max: Annotated[Entry, quantity("N", -1e6, 1e6)] | None = None
+    bushing_3_amplitude: Annotated[Entry, quantity("N", 0, 1e6)] | None = None
+
+
+class Scenario(_Part):
+    """A checked scenario; every number is an :class:`Entry`.
+
+    `constants` says which section stiffness the user wants: ``"published"``, ``"cell"`` or the path of a file; whoever
+    calls :func:`beam.tow` resolves it and passes the section.
+    """
+
+    schema_: Literal[1] = Field(alias="schema")
+    name: str
+    title: str
+    constants: str
+    published_constants: PublishedConstants
+    cable: Cable
+    layout: Layout
+    drive: Drive
+    contact: Contact
+    time: TimeSpan
+    published_results: PublishedResults = PublishedResults()
+
+    @model_validator(mode="after")
+    def _can_be_true(self) -> Scenario:
+        for fault in (self._shape_fault(), self._stroke_fault(), self._mesh_fault(), self._time_fault()):
+            if fault:
+                raise SpecError(fault)
+        return self
+
+    def _shape_fault(self) -> str:
+        length, upper, arc = self.cable.length.value, self.layout.upper_strand.value, self.bend_length
+        if self.lower_strand <= 0 or upper <= 0:
+            return (
+                f"an upper strand of {upper:g} m and a bend of {arc:.3f} m leave {self.lower_strand:.3f} m of the {length:g} m "
+                f"long cable for the lower strand: shorten layout.upper_strand or lengthen cable.length."
+            )
+        return ""
+
+    def _stroke_fault(self) -> str:
+        stroke = float(self.pull(self.time.duration.value)[0][0])
+        travel = self.drive.trolley_ratio.value * stroke
+        if stroke > self.cable.length.value:
+            return (
+                f"the stroke of {stroke:.2f} m is longer than the cable of {self.cable.length.value:g} m: "
+                f"shorten time.duration or lower drive.speed."
+            )
+        if travel >= self.lower_strand:
+            return (
+                f"the roller travels {travel:.2f} m and runs off the lower strand of {self.lower_strand:.2f} m: "
+                f"shorten time.duration or layout.upper_strand, or lower drive.speed."
+            )
+        return ""
+
+    def _mesh_fault(self) -> str:
+        count = self.cable.elements.value
+        if count != int(count):
+            return f"cable.elements is {count:g}; it must be a whole number."
+        on_bend = self.bend_length * count / self.cable.length.value
+        if on_bend < 5:
+            needed = int(np.ceil(5 * self.cable.length.value / self.bend_length))
+            return f"{count:g} elements put {on_bend:.1f} on the bend, too few to bend round it: use at least {needed}."
+        return ""
+
+    def _time_fault(self) -> str:
+        if self.drive.ramp_end.value <= self.drive.ramp_start.value:
+            return "drive.ramp_end must be later than drive.ramp_start."
+        if self.time.largest_step.value > self.time.frame.value or self.time.frame.value > self.time.duration.value:
+            return "time.largest_step must not exceed time.frame, nor time.frame the duration."
+        return ""
+
+    @property
+    def bend_length(self) -> float:
+        """Length of cable on the half circle [m]."""
+        return float(np.pi * self.layout.bend_radius.value)
+
+    @property
+    def lower_strand(self) -> float:
+        """Length of the lower strand at the start [m]."""
+        return self.cable.length.value - self.layout.upper_strand.value - self.bend_length
+
+    @property
+    def elements(self) -> int:
+        """Number of elements."""
+        return int(self.cable.elements.value)
+
+    @property
+    def pull(self) -> SpeedRamp:
+        """Motion of the shearer."""
+        return SpeedRamp(self.drive.speed.value, self.drive.ramp_start.value, self.drive.ramp_end.value)
+
+    @property
+    def trolley(self) -> SpeedRamp:
+        """Motion of the roller."""
+        pull = self.pull
+        return SpeedRamp(pull.speed, pull.start, pull.end, ratio=self.drive.trolley_ratio.value)
+
+    @property
+    def cable_inertia(self) -> SectionInertia:
+        """Inertia of the cable without clamps, its mass spread over its circle."""
+        return SectionInertia.solid_circle(self.cable.mass_per_length.value, self.cable.diameter.value)
+
+    def entries(self) -> dict[str, Entry]:
+        """All entries by key, such as ``"cable.length"``, in the order of the file."""
+        found: dict[str, Entry] = {}
+        for part in type(self).model_fields:
+            section = getattr(self, part)
+            if isinstance(section, _Part):
+                for key in type(section).model_fields:
+                    entry = getattr(section, key)
+                    if entry is not None:
+                        found[f"{part}.{key}"] = entry
+        return found
+
+    def changed(self, **values: object) -> Scenario:
+        """The same scenario with other values, checked again: ``changed(cable__elements=100, time__duration="2 s")``.
+
+        Raises
+        ------
+        SpecError
+            If a key is unknown or the changed scenario cannot be true.
+        """
+        from beam.scenario_file import check
+
+        raw: dict[str, Any] = {"schema": 1, "name": self.name, "title": self.title, "constants": self.constants}
+        for key, entry in self.entries().items():
+            part, name = key.split(".")
+            raw.setdefault(part, {})[name] = entry
+        for key, value in values.items():
+            part, _, name = key.partition("__")
+            if not name:
+                raw[part] = value
+                continue
+            given = {"value": value, "status": "chosen", "source": "set for this run"}
+            raw.setdefault(part, {})[name] = given
+        return check(raw, self.name)
+
+
+def published_section(scenario: Scenario) -> SectionStiffness:
+    """Section stiffness from the published moduli on the cable's diameter (shear factor 0.9)."""
+    constants = scenario.published_constants
+    return SectionStiffness.solid_circle(
+        E=constants.E.value,
+        G_yoz=constants.G_yoz.value,
+        G_xoz=constants.G_xoz.value,
+        diameter=scenario.cable.diameter.value,
+    )

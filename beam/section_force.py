@@ -1,0 +1,55 @@
+r"""Section forces at the nodes, in the section's own axes and in global axes.
+
+They are known at the Gauss points; a node takes the mean of the nearest Gauss point on either side (between the elements'
+ends the strains of a bent Hermite element oscillate, at the Gauss points they are accurate). Global components are
+n = R N and m = R M: what the part on the side of growing arc length exerts on the part before it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beam.hermite import hermite
+from beam.rod import GAUSS_X
+from beam.rotation_vector import rotation_matrix
+
+Array = NDArray[np.float64]
+
+
+def nodal_section_forces(q: Array, lengths: Array, S: Array) -> tuple[Array, Array]:
+    """(local, global) section forces and moments at the nodes.
+
+    Parameters
+    ----------
+    q : (n + 1, 12) array
+    lengths : (n,) array
+    S : (n, 3, 6) array
+        (N_1, N_2, N_3, M_1, M_2, M_3) at the Gauss points.
+
+    Returns
+    -------
+    local, turned : (n + 1, 6) array
+        N and N m.
+    """
+    turned = np.empty_like(S)
+    for g, x in enumerate(GAUSS_X):
+        R = rotation_matrix(_interpolate_rotation(q, lengths, float(x)))
+        turned[:, g, :3] = np.einsum("eij,ej->ei", R, S[:, g, :3])
+        turned[:, g, 3:] = np.einsum("eij,ej->ei", R, S[:, g, 3:])
+    return _to_nodes(S), _to_nodes(turned)
+
+
+def _interpolate_rotation(q: Array, lengths: Array, x: float) -> Array:
+    N, dN = np.zeros(4), np.zeros(4)
+    hermite(x, 1.0, N, dN)
+    slope = lengths[:, None]
+    first = N[0] * q[:-1, 6:9] + N[1] * slope * q[:-1, 9:12]
+    return first + N[2] * q[1:, 6:9] + N[3] * slope * q[1:, 9:12]
+
+
+def _to_nodes(values: Array) -> Array:
+    nodes = np.empty((values.shape[0] + 1, values.shape[2]))
+    nodes[0], nodes[-1] = values[0, 0], values[-1, -1]
+    nodes[1:-1] = 0.5 * (values[:-1, -1] + values[1:, 0])
+    return nodes

@@ -1,0 +1,141 @@
+"""The towing run: a cable fixed at the supply, one bend round a roller that travels at half speed, pulled by the shearer.
+
+Global axes: x along the trough in the shearer's direction of travel, y normal to the trough, z across it. The cable starts
+at the supply at the origin, runs as lower strand towards -x, bends upwards round the trolley's roller and comes back as
+upper strand towards +x, on a deck that begins at the roller. An inclination tilts gravity: positive when the shearer
+goes uphill. The centre line is what touches the surfaces, so that y = 0 is half a diameter above the trough.
+Nodes are counted from the shearer, as published; arc length s from the supply.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beam.generalized_alpha import Integrator, StepSettings
+from beam.incline_formula import STANDARD_GRAVITY
+from beam.rod import Rod
+from beam.rod_model import RodModel, Support
+from beam.scenario import Scenario, published_section
+from beam.section_law import DampingTimes
+from beam.shape import strands_and_arcs
+from beam.statics import equilibrium
+from beam.status import Outcome
+from beam.surface import ContactLaw, Cylinder, Plane
+from beam.towing_run import Frames, TowingRun
+from homogenize.section_stiffness import SectionInertia, SectionStiffness
+
+Array = NDArray[np.float64]
+Progress = Callable[[float, str], None]
+
+logger = logging.getLogger(__name__)
+
+
+def towing_model(scenario: Scenario, section: SectionStiffness, inertia: SectionInertia) -> RodModel:
+    """The mechanical problem of a scenario; `inertia` is the cable's, the clamps' mass is added here."""
+    cable, contact, layout = scenario.cable, scenario.contact, scenario.layout
+    with_clamps = SectionInertia(
+        inertia.mass_per_length + cable.clamp_mass_per_length.value, inertia.J_x, inertia.J_y, inertia.J_z
+    )
+    damping = DampingTimes(cable.damping_time_axial.value, cable.damping_time_bending.value)
+    rod = Rod.straight(cable.length.value, scenario.elements, section, with_clamps, damping)
+    R, lower = layout.bend_radius.value, scenario.lower_strand
+    pieces = [(lower, 0.0), (scenario.bend_length, -1.0 / R), (layout.upper_strand.value, 0.0)]
+    trough = ContactLaw(contact.stiffness.value, contact.friction.value, contact.damping_time.value)
+    roller = ContactLaw(contact.roller_stiffness.value, 0.0, contact.damping_time.value)
+    deck_begin = (-lower, R, -np.inf)
+    slope = layout.inclination.value
+    return RodModel(
+        rod,
+        strands_and_arcs(rod.s, pieces, angle=np.pi),
+        supports=[Support(0), Support(-1, travel=scenario.pull)],
+        gravity=(-STANDARD_GRAVITY * np.sin(slope), -STANDARD_GRAVITY * np.cos(slope), 0.0),
+        surfaces=[
+            Plane("trough", trough),
+            Plane("deck", trough, offset=2 * R, low=deck_begin, box_travel=scenario.trolley),
+            Cylinder("roller", roller, (-lower, R, 0.0), R, scenario.trolley),
+        ],
+    )
+
+
+def tow(
+    scenario: Scenario,
+    section: SectionStiffness | None = None,
+    inertia: SectionInertia | None = None,
+    *,
+    progress: Progress | None = None,
+    settings: StepSettings | None = None,
+) -> TowingRun:
+    """Static start, then the towing run.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        See :func:`beam.read_scenario`.
+    section : SectionStiffness, optional
+        Which constants the rod has; the published moduli on the cable's diameter if not given. For a section that turns
+        with the lay, pass its pitch average.
+    inertia : SectionInertia, optional
+        Of the cable without clamps; the scenario's mass on its diameter if not given.
+    progress : callable (fraction, sentence), optional
+    settings : StepSettings, optional
+        Replaces the scenario's largest step and the default solver settings. Its largest step is shortened so that it
+        divides the output interval.
+
+    Returns
+    -------
+    TowingRun
+        Also when the run had to stop: what was computed is kept, ``run.outcome`` says in a sentence what happened.
+
+    Raises
+    ------
+    ConvergenceError
+        If no static equilibrium is found to start from.
+    """
+    begin = time.perf_counter()
+    section = section or published_section(scenario)
+    inertia = inertia or scenario.cable_inertia
+    tell = progress or (lambda fraction, sentence: None)
+    tell(0.0, "looking for the equilibrium to start from")
+    model = towing_model(scenario, section, inertia)
+    start = equilibrium(model)
+    start.outcome.require_success()
+    logger.info("static residual %.1e N, %.1e N m", start.residual_force, start.residual_moment)
+    settings, per_frame, frames = _steps(scenario, settings)
+    motion = Integrator(model, start.q, anchors=start.anchors, settings=settings)
+    record = Frames(model)
+    record.take(motion)
+    for k in range(frames):
+        if not motion.advance(per_frame):
+            break
+        record.take(motion)
+        tell((k + 1) / frames, f"{motion.t:.2f} s of {scenario.time.duration.value:g} s")
+    outcome: Outcome = motion.outcome
+    if not outcome.completed:
+        logger.warning("%s", outcome)
+    return TowingRun(
+        scenario=scenario,
+        section=section,
+        mass_per_length=model.rod.mass_per_length,
+        frames=record,
+        outcome=outcome,
+        counters=motion.counters,
+        balance_error=motion.ledger.balance_error,
+        static_residual=(start.residual_force, start.residual_moment),
+        deepest_penetration=motion.deepest,
+        seconds_wall=time.perf_counter() - begin,
+    )
+
+
+def _steps(scenario: Scenario, settings: StepSettings | None) -> tuple[StepSettings, int, int]:
+    """Settings whose largest step divides the output interval, steps an interval, number of intervals."""
+    frame = scenario.time.frame.value
+    base = settings or StepSettings(largest_step=scenario.time.largest_step.value)
+    per_frame = int(np.ceil(frame / base.largest_step - 1e-9))
+    exact = replace(base, largest_step=frame / per_frame)
+    return exact, per_frame, max(1, round(scenario.time.duration.value / frame))

@@ -1,0 +1,81 @@
+"""The towing run in numbers: forces at the published nodes beside what the source reports."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from beam.towing_run import TowingRun
+
+PUBLISHED_NODES = (54, 199, 220, 370)
+"""Nodes of the source: at the shearer, upper and lower end of the bend, at the power end; counted from the shearer."""
+
+PLATEAU_FROM = 6.0
+"""s; the source calls its curves steady from here on."""
+
+
+def towing_record(run: TowingRun) -> dict[str, Any]:
+    """Numbers of a run with fixed keys; SI, finite, ``None`` where there is none, with the reason in ``notes``."""
+    data = run.dataset
+    time = data["time"].values
+    nodes = {}
+    for published in PUBLISHED_NODES:
+        force = data["force_global"].sel(node=run.node(published)).values
+        nodes[str(published)] = {
+            "Fx_plateau": _plateau(time, force[:, 0]),
+            "Fy_plateau": _plateau(time, force[:, 1]),
+            "Fx_max": _largest(force[:, 0]),
+            "Fy_max": _largest(force[:, 1]),
+        }
+    up, down = run.formula_forces()
+    entries = run.scenario.entries()
+    published = {k.split(".")[1]: e.value for k, e in entries.items() if k.startswith("published_results.")}
+    return {
+        "schema": 1,
+        "scenario": run.scenario.name,
+        "status": "completed" if run.outcome.completed else run.status,
+        "seconds_simulated": float(time[-1]),
+        "seconds_wall": run.seconds_wall,
+        "elements": run.scenario.elements,
+        "constants": run.scenario.constants,
+        "peak_tension": float(data["force_local"].values[:, :, 0].max()),
+        "pull_force_plateau": _plateau(time, data["pull_force"].values[:, 0]),
+        "pull_force_max": _largest(data["pull_force"].values[:, 0]),
+        "formula_22_peak": float(up.max()),
+        "formula_23_peak": float(down.max()),
+        "energy_balance_error": float(run.balance_error),
+        "static_residual": {"force": run.static_residual[0], "moment": run.static_residual[1]},
+        "deepest_penetration": run.deepest_penetration[0],
+        "nodes": nodes,
+        "bushing_3_amplitude": None,
+        "contact_35": None,
+        "lateral_displacement_max": float(np.abs(data["position"].values[:, :, 2]).max()),
+        "published": published,
+        "assumed": {key: entry.text for key, entry in entries.items() if entry.status == "assumed"},
+        "notes": _notes(run),
+    }
+
+
+def _notes(run: TowingRun) -> list[str]:
+    notes = [
+        "bushing_3_amplitude is null: clamps enter as mass only, there are no bushings yet.",
+        "contact_35 is null: clamps enter as mass only, there is no clamp-cable contact yet.",
+        "The run is plane: without a lateral disturbance the lateral displacement is round-off.",
+        "Forces at a node are what the shearer's side exerts on the supply's side; x is the direction of travel.",
+        f"Plateaus are means from {PLATEAU_FROM:g} s on, or over the last quarter of a shorter run.",
+    ]
+    if not run.outcome.completed:
+        notes.insert(0, run.status)
+    return notes
+
+
+def _plateau(time: np.ndarray, values: np.ndarray) -> float:
+    begin = PLATEAU_FROM if time[-1] > PLATEAU_FROM else time[0] + 0.75 * (time[-1] - time[0])
+    return float(values[time >= begin].mean())
+
+
+def _largest(values: np.ndarray) -> float:
+    """The value of largest magnitude, with its sign."""
+    return float(values[np.argmax(np.abs(values))])
