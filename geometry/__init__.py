@@ -5,20 +5,28 @@ Names that need gmsh, meshio, matplotlib or pyvista load them only when they are
 
 from geometry.cable import Cable, MarkedNumber, Part, RotaryInertia
 from geometry.cable_file import BuiltinCable, builtin_cables, cable_files, read_cable
+from geometry.cable_table import Row, describe, marked_rows
 from geometry.cell_mesh import CrossSectionMesh, Region, SliceMesh
 from geometry.clearance import Clearance, Member, clearances, helix_distance
+from geometry.cutaway_picture import draw_cutaway
 from geometry.errors import ConvergenceError, GeometryError, InputError, MeshError, SpecError
 from geometry.helical_slice import helical_slice
 from geometry.helix import Helix, lay_angle
 from geometry.material import Material
+from geometry.mesh_file import write_mesh
 from geometry.mesh_quality import element_sizes, region_sizes, scaled_jacobian
+from geometry.nested_helix import CentreLine, nested_helix
 from geometry.section_mesh import cross_section_mesh
+from geometry.section_picture import draw_cross_section, draw_mesh
+from geometry.sized_slice import slice_of_size, slice_record
 from geometry.strand import Conductor, Strand
+from geometry.swept_solids import Solid, write_solids
 from geometry.wire_trace import WireTrace
 
 __all__ = [
     "BuiltinCable",
     "Cable",
+    "CentreLine",
     "Clearance",
     "Conductor",
     "ConvergenceError",
@@ -33,7 +41,9 @@ __all__ = [
     "Part",
     "Region",
     "RotaryInertia",
+    "Row",
     "SliceMesh",
+    "Solid",
     "SpecError",
     "Strand",
     "WireTrace",
@@ -41,11 +51,21 @@ __all__ = [
     "cable_files",
     "clearances",
     "cross_section_mesh",
+    "describe",
+    "draw_cross_section",
+    "draw_cutaway",
+    "draw_mesh",
     "element_sizes",
     "helical_slice",
     "helix_distance",
     "lay_angle",
+    "marked_rows",
+    "nested_helix",
     "read_cable",
     "region_sizes",
     "scaled_jacobian",
+    "slice_of_size",
+    "slice_record",
+    "write_mesh",
+    "write_solids",
 ]

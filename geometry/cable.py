@@ -159,12 +159,12 @@ class Cable:
     @property
     def mass_per_length(self) -> float:
         """Mass per length [kg/m], lays included."""
-        return sum(part.mass_per_length for part in self.parts)
+        return float(sum(part.mass_per_length for part in self.parts))
 
     @property
     def rotary_inertia(self) -> RotaryInertia:
         """Rotary inertia per length [kg m] of the section z = 0 about the cable axis."""
-        J_y, J_x = (sum(part.material.density * part.moments[i] for part in self.parts) for i in (3, 4))
+        J_y, J_x = (float(sum(part.material.density * part.moments[i] for part in self.parts)) for i in (3, 4))
         return RotaryInertia(J_x, J_y, J_x + J_y)
 
     @property

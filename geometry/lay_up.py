@@ -106,7 +106,7 @@ def round_layers(
     """Append rings (kind, material, wall [m]) about the axis, from `radius` outwards; returns all parts."""
     found = list(parts)
     for kind, material, wall in layers:
-        moments = tuple(ring_moments(0.0, 0.0, radius, radius + wall, rate))
+        moments = tuple(ring_moments(0.0, 0.0, radius, radius + wall, rate).tolist())
         found.append(Part(kind, kind, kind, material, 0.0, 0.0, radius, radius + wall, rate, moments))
         radius += wall
     repeated = [name for name, count in Counter(p.name for p in found).items() if count > 1]
@@ -132,7 +132,7 @@ def _ring_parts(member: Round, centre_radius: float, phase: float, twist_rate: f
             raise GeometryError(
                 f"{member.name} {layer.kind}: its outer radius must be larger than {inner * 1e3:.4g} mm."
             )
-        moments = tuple(ring_moments(centre_radius, phase, inner, layer.outer_radius, twist_rate))
+        moments = tuple(ring_moments(centre_radius, phase, inner, layer.outer_radius, twist_rate).tolist())
         name = f"{member.name} {layer.kind}"
         parts.append(
             Part(
@@ -154,5 +154,5 @@ def _ring_parts(member: Round, centre_radius: float, phase: float, twist_rate: f
 
 def _interstices(parts: Sequence[Part], inner: float, outer: float, filler: Material, rate: float) -> Part:
     circle = ring_moments(0.0, 0.0, 0.0, outer, rate)
-    moments = tuple(circle - np.sum([part.moments for part in parts], axis=0))
+    moments = tuple((circle - np.sum([part.moments for part in parts], axis=0)).tolist())
     return Part("interstices", "interstices", "interstices", filler, 0.0, 0.0, inner, outer, rate, moments)

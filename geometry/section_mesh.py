@@ -4,7 +4,7 @@ Regions come from gmsh's surface tags, never from centroids. All nodes on an out
 the exact curve (wire_trace.py). Contacts between round parts are closed as section_outline.py says.
 
 The mesh size is `size` in the bulk and smaller where the section asks for it: four times the thickness along
-thin layers, four gap widths in necks. These factors shrink with `size`, so that halving it refines everywhere.
+thin layers, five gap widths in necks. These factors shrink with `size`, so that halving it refines everywhere.
 """
 
 from __future__ import annotations
@@ -18,14 +18,21 @@ from geometry.cable import Cable
 from geometry.cell_mesh import CrossSectionMesh, Region
 from geometry.errors import MeshError
 from geometry.gmsh_session import gmsh_session
-from geometry.mesh_quality import element_sizes
+from geometry.mesh_quality import element_sizes, scaled_jacobian
 from geometry.section_outline import SectionOutline, section_outline
 
 KINDS = {"triangle": 1, "triangle6": 2, "quad": 1, "quad9": 2}
 GMSH_TYPE = {"triangle": 2, "triangle6": 9, "quad": 3, "quad9": 10}
-DEFAULT_SIZE = 1 / 34
-"""Default size over outer diameter; 1.5 mm for a cable of 51.6 mm."""
+DEFAULT_SIZE = 1 / 26
+"""Default size over outer diameter; 2.0 mm for a cable of 51.6 mm."""
 LARGEST = 2e7
+GOOD_ENOUGH = 0.15
+"""Smallest scaled Jacobian at which no other recipe is tried."""
+QUAD_RECIPES: list[dict[str, float]] = [
+    {"Algorithm": 5, "RecombinationAlgorithm": 0},
+    {"Algorithm": 6, "RecombinationAlgorithm": 1, "RecombineMinimumQuality": 0.3},
+    {"Algorithm": 8, "RecombinationAlgorithm": 1, "RecombineMinimumQuality": 0.5},
+]
 
 
 def cross_section_mesh(cable: Cable, size: float | None = None, kind: str = "triangle6") -> CrossSectionMesh:
@@ -35,7 +42,7 @@ def cross_section_mesh(cable: Cable, size: float | None = None, kind: str = "tri
     ----------
     cable : Cable
     size : float or None
-        Edge length in the bulk [m]; None takes 1/34 of the outer diameter (1.5 mm for the reference cable, about 20 000
+        Edge length in the bulk [m]; None takes 1/26 of the outer diameter (2.0 mm for the reference cable, about 28 000
         displacement unknowns with "triangle6").
     kind : "triangle6" (default), "triangle", "quad" or "quad9"
 
@@ -61,23 +68,38 @@ def cross_section_mesh(cable: Cable, size: float | None = None, kind: str = "tri
     quads = kind.startswith("quad")
     coarse = 2 * size if quads else size  # quadrilaterals come from halving every edge of a coarser mesh
     outline = section_outline(cable, neck_below=coarse)
+    best: CrossSectionMesh | None = None
+    quality = -np.inf
+    for recipe in QUAD_RECIPES if quads else [{"Algorithm": 6}]:
+        mesh = _meshed(cable, outline, coarse, kind, recipe)
+        worst = float(scaled_jacobian(mesh).min())
+        if worst > quality:
+            best, quality = mesh, worst
+        if quality >= GOOD_ENOUGH:
+            break
+    assert best is not None
+    return best
+
+
+def _meshed(cable: Cable, outline: SectionOutline, size: float, kind: str, recipe: dict[str, float]) -> CrossSectionMesh:
+    """One run of gmsh; `recipe` holds the Mesh options that differ between runs."""
+    options = {
+        "MeshSizeExtendFromBoundary": 1,
+        "MeshSizeFromPoints": 0,
+        "MeshSizeFromCurvature": 0,
+        "MeshSizeMax": size,
+        "MeshSizeMin": 0,
+        "RecombineAll": int(kind.startswith("quad")),
+        "RecombineMinimumQuality": 0.01,
+        "RecombinationAlgorithm": 0,
+        "SubdivisionAlgorithm": int(kind.startswith("quad")),
+        "ElementOrder": 1,
+        "SecondOrderIncomplete": 0,
+    }
     with gmsh_session(cable.name) as gmsh:
         curve_tags, surfaces = _build(gmsh, outline)
-        _set_sizes(gmsh, cable, outline, curve_tags, coarse)
-        options = {
-            "MeshSizeExtendFromBoundary": 1,
-            "MeshSizeFromPoints": 0,
-            "MeshSizeFromCurvature": 0,
-            "MeshSizeMax": coarse,
-            "MeshSizeMin": 0,
-            "Algorithm": 6,
-            "RecombineAll": int(quads),
-            "RecombinationAlgorithm": 1,
-            "SubdivisionAlgorithm": int(quads),
-            "ElementOrder": 1,
-            "SecondOrderIncomplete": 0,
-        }
-        for option, value in options.items():
+        _set_sizes(gmsh, cable, outline, curve_tags, size)
+        for option, value in (options | recipe).items():
             gmsh.option.setNumber(f"Mesh.{option}", value)
         gmsh.model.mesh.generate(2)
         if KINDS[kind] == 2:
@@ -157,7 +179,7 @@ def _set_sizes(gmsh: Any, cable: Cable, outline: SectionOutline, curve_tags: dic
         square = f"((x-({x:.12g}))^2+(y-({y:.12g}))^2)"
         fields.append(field.add("MathEval"))
         width = f"sqrt({neck.closure:.9g}^2+({neck.gap:.9g}+{neck.bend:.9g}*{square})^2)"
-        field.setString(fields[-1], "F", f"{4 * fineness:.9g}*{width}")
+        field.setString(fields[-1], "F", f"{5 * fineness:.9g}*{width}")
     smallest = field.add("Min")
     field.setNumbers(smallest, "FieldsList", fields)
     field.setAsBackgroundMesh(smallest)
