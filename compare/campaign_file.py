@@ -9,7 +9,7 @@ from typing import Any
 
 from compare.kinds import QUANTITIES, channel_quantity
 from compare.nominal_section import NominalSection
-from compare.text_file import decode, suggestion
+from compare.text_file import LARGEST, decode, suggestion
 from geometry.errors import SpecError
 from geometry.units import read_quantity
 
@@ -102,6 +102,8 @@ def _positive_table(content: Mapping[str, Any], name: str, units: Mapping[str, s
     for key, text in table.items():
         where = f"{FILE}, [{name}] {key}"
         values[key] = read_quantity(text, units[key], where)
+        if abs(values[key]) > LARGEST:
+            raise SpecError(f"{where}: {text!r} is beyond {LARGEST:g}; check the value.")
         lowest_is_zero = key in _NEEDS_NO_SIGN
         if key != "inclination" and (values[key] < 0 or (values[key] == 0 and not lowest_is_zero)):
             raise SpecError(f"{where}: {text!r} must {'not be negative' if lowest_is_zero else 'be positive'}.")

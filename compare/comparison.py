@@ -101,9 +101,10 @@ class Comparison:
         return float(np.sqrt(np.sum(n * ratio**2) / n.sum()))
 
     def where_it_fails(self) -> tuple[ChannelFit, ...]:
-        """Channels whose misfit noise does not explain (chance below 1 % shared among all of them), worst first."""
+        """Channels with an excess that noise does not explain (chance below 1 % shared among all), worst first."""
         threshold = _SIGNIFICANT / max(len(self.fits), 1)
-        return tuple(sorted((f for f in self.fits if f.after.chance < threshold), key=lambda f: -f.relative_excess))
+        failing = (f for f in self.fits if f.after.chance < threshold and f.after.excess > 0)
+        return tuple(sorted(failing, key=lambda f: -f.relative_excess))
 
     def rows(self) -> list[dict[str, Any]]:
         """One dictionary per experiment and channel, ready for a table or a data frame; keys as in the JSON."""
@@ -129,13 +130,23 @@ class Comparison:
         ]
         failing = self.where_it_fails()
         if not failing:
-            return f"{n} experiments, {', '.join(errors)}: the residual is within the noise."
+            return f"{n} experiments, {', '.join(errors)}: {self._verdict_without_failures()}"
         worst = "; ".join(
             f"{f.experiment.id} {f.channel} (excess {f.relative_excess:.1f} x floor)" for f in failing[:3]
         )
         return (
             f"{n} experiments, {', '.join(errors)}. Fails in {len(failing)} of {len(self.fits)} "
             f"channels, most in {worst}."
+        )
+
+    def _verdict_without_failures(self) -> str:
+        unfit = [(key, test) for key, test in self.lack_of_fit.items() if test.p < _SIGNIFICANT / len(self.lack_of_fit)]
+        if not unfit:
+            return "the residual is within the noise."
+        (kind, channel), test = min(unfit, key=lambda item: item[1].p)
+        return (
+            f"no single record stands out of its noise, but the means of the repeats do: {channel} in {kind} "
+            f"lacks fit with F = {test.F:.3g} (p = {test.p:.1g})."
         )
 
 

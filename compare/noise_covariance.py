@@ -37,6 +37,8 @@ class NoiseCovariance:
         Relative standard deviation of the gain of a record.
     offset : float
         Standard deviation of the offset of a record [unit of the channel].
+    contrasts, samples : int
+        How many signal-free contrasts of repeats it was learnt from, and how many samples they have; 0 if it was not.
 
     Examples
     --------
@@ -51,6 +53,8 @@ class NoiseCovariance:
     offset: float = 0.0
     assumed: bool = False
     source: str = ""
+    contrasts: int = 0
+    samples: int = 0
 
     def __post_init__(self) -> None:
         if not (
@@ -72,7 +76,7 @@ class NoiseCovariance:
     def whiten(self, x: Vector, signal: Vector) -> Vector:
         """K x with K^T K = C^-1, which turns noise into independent samples of variance one; x: (n,) or (n, k)."""
         Q, shrink = self._update(signal)
-        white = self._whiten_samples(x)
+        white = self.whiten_samples(x)
         return white - Q @ (shrink[:, None] * (Q.T @ white) if white.ndim == 2 else shrink * (Q.T @ white))
 
     def log_determinant(self, signal: Vector) -> float:
@@ -89,21 +93,11 @@ class NoiseCovariance:
     def mean_std(self, signal: Vector) -> float:
         """Standard deviation of the mean of the noise over one record: sqrt(1^T C 1) / n."""
         n = len(signal)
-        variance = self.s**2 * self._mean_correlation(n, 1) + self.gain**2 * np.mean(signal) ** 2 + self.offset**2
+        variance = self.s**2 * self._mean_correlation(n) + self.gain**2 * np.mean(signal) ** 2 + self.offset**2
         return float(np.sqrt(variance))
 
-    def mean_square_std(self, signal: Vector) -> float:
-        """Standard deviation of the mean square of the noise over one record: sqrt(2 tr C^2) / n."""
-        n = len(signal)
-        U = np.column_stack([self.gain * signal, np.full(n, self.offset)])
-        trace = (
-            self.s**4 * n**2 * self._mean_correlation(n, 2)
-            + 2 * self.s**2 * np.sum(U * self._correlate(U))
-            + np.sum((U.T @ U) ** 2)
-        )
-        return float(np.sqrt(2 * trace) / n)
-
-    def _whiten_samples(self, x: Vector) -> Vector:
+    def whiten_samples(self, x: Vector) -> Vector:
+        """W x / s: white if there were no scatter of gain and offset; x of shape (n,) or (n, k)."""
         white = x / self.s
         white[1:] = (white[1:] - self.phi * (x[:-1] / self.s)) / np.sqrt(1 - self.phi**2)
         return white
@@ -114,18 +108,10 @@ class NoiseCovariance:
         U = U[:, np.any(U != 0, axis=0)]
         if U.shape[1] == 0:
             return np.zeros((len(signal), 0)), np.zeros(0)
-        Q, S, _ = np.linalg.svd(self._whiten_samples(U), full_matrices=False)
+        Q, S, _ = np.linalg.svd(self.whiten_samples(U), full_matrices=False)
         return Q, 1 - 1 / np.sqrt(1 + S**2)
 
-    def _mean_correlation(self, n: int, power: int) -> float:
-        """Mean over all pairs of samples of phi^(power |i-j|), in closed form."""
-        q = self.phi**power
+    def _mean_correlation(self, n: int) -> float:
+        """Mean over all pairs of samples of phi^|i-j|, in closed form."""
+        q = self.phi
         return float(((1 + q) / (1 - q) - 2 * q * (1 - q**n) / (n * (1 - q) ** 2)) / n)
-
-    def _correlate(self, U: Vector) -> Vector:
-        """A U in two sweeps of the recursion y_t = x_t + phi y_{t-1}, one forwards and one backwards."""
-        from scipy.signal import lfilter
-
-        ahead = np.asarray(lfilter([1.0], [1.0, -self.phi], U, axis=0))
-        behind = np.asarray(lfilter([1.0], [1.0, -self.phi], U[::-1], axis=0))[::-1]
-        return ahead + behind - U

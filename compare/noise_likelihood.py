@@ -103,7 +103,15 @@ def fit_noise(contrasts: Sequence[Contrast], source: str = "") -> NoiseCovarianc
             gamma, beta = none
             break
     s = products.deviance(phi, gamma, beta)[1]
-    return NoiseCovariance(s=s, phi=phi, gain=s * gamma / scale, offset=s * beta, source=source)
+    return NoiseCovariance(
+        s=s,
+        phi=phi,
+        gain=s * gamma / scale,
+        offset=s * beta,
+        source=source,
+        contrasts=len(contrasts),
+        samples=sum(len(c.d) for c in contrasts),
+    )
 
 
 def _lag_one(contrasts: Sequence[Contrast]) -> float:

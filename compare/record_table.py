@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from compare.experiment import Channel, Record
 from compare.kinds import KINDS, PATHS_OF_A_LENGTH, Kind, Quantity, allowed_channels, channel_quantity, station
-from compare.text_file import decode, number_defect, parse_column, separator_hint, split_header, suggestion
+from compare.text_file import LARGEST, decode, number_defect, parse_column, separator_hint, split_header, suggestion
 from geometry.errors import SpecError
 from geometry.units import conversion, si_unit
 
@@ -59,6 +59,7 @@ def read_record(raw: bytes, name: str, kind: str, control: str | None, condition
     for (quantity, unit), cell, column in zip(columns, cells, values.T, strict=True):
         factor, offset = conversion(unit, quantity.unit, f'{name}, row 1, column "{cell}"')
         si = factor * column + offset
+        _require_sane_size(si, quantity.unit, cell, name)
         si.setflags(write=False)
         channels[quantity.name] = Channel(quantity.name, quantity.unit, si)
     time = channels.pop("time").values if "time" in channels else None
@@ -175,6 +176,15 @@ def _blame(body: str, cells: list[str], file: str) -> None:
 def _defect(cell: str) -> str:
     problem = number_defect(cell) if cell else "the cell is empty"
     return f"{problem}; leave the whole row out where a channel was not recorded" if problem else ""
+
+
+def _require_sane_size(si: NDArray[np.float64], unit: str, column: str, file: str) -> None:
+    large = np.flatnonzero(np.abs(si) > LARGEST)
+    if large.size:
+        raise SpecError(
+            f'{file}, row {large[0] + 2}, column "{column}": {si[large[0]]:.3g} {unit} is beyond {LARGEST:g}, whose '
+            "square no computer can sum; check the unit and the value."
+        )
 
 
 def _require_running_forwards(time: NDArray[np.float64], written: NDArray[np.float64], column: str, file: str) -> None:

@@ -15,6 +15,7 @@ from geometry.errors import SpecError
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _NOT_FINITE = {"nan", "inf", "infinity"}
 _MOST_NAMES = 12
+LARGEST = 1e100  # of a value in SI: squares of it and their sums stay finite
 _HEADER = re.compile(r"(?P<name>[^\[\]]+?)\s*\[(?P<unit>[^\[\]]*)\]")
 
 

@@ -143,6 +143,8 @@ DEFECTS = {
     "NaN": ({"a.csv": LOOP + "12,0.2,NaN\n13,0.1,1\n"}, ["a.csv, row 14", "moment [N m]", '"NaN"']),
     "infinite": ({"a.csv": LOOP + "12,-inf,1\n"}, ["a.csv, row 14", "curvature [1/m]", '"-inf"']),
     "too large": ({"a.csv": LOOP + "12,1e999,1\n"}, ["a.csv, row 14", "curvature [1/m]", "too large"]),
+    "square overflows": ({"a.csv": LOOP + "12,0.2,1e150\n"}, ["a.csv, row 14", "moment [N m]", "1e+150 N m"]),
+    "stiffness overflows": ({"campaign.toml": TOML.replace("95 N", "1e150 N")}, ["[section] EI", "beyond"]),
     "short row": ({"a.csv": LOOP + "12,0.2\n"}, ["a.csv, row 14", "2 cell(s)", "3 columns"]),
     "long row": ({"a.csv": LOOP + "12,0.2,1,\n"}, ["a.csv, row 14", "4 cell(s)", "3 columns"]),
     "long and short row": ({"a.csv": LOOP + "12,0.2,1,5\n13,0.2\n"}, ["a.csv, row 14", "4 cell(s)"]),
