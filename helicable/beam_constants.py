@@ -1,0 +1,65 @@
+"""Which constants feed the rod: `published`, `cell` (the long-cable section of this project) or a file.
+
+A file is what `helicable homogenize CABLE --json FILE` wrote: the 6x6 ``section.C`` and ``area``.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from beam import Scenario, published_section
+from geometry import read_cable
+from geometry.errors import SpecError
+from helicable.screen import progress
+from homogenize import SectionStiffness, homogenize_cable
+
+
+@dataclass(frozen=True)
+class BeamConstants:
+    """Section of the rod and the sentence that says where it comes from."""
+
+    name: str
+    section: SectionStiffness
+    sentence: str
+
+
+def beam_constants(scenario: Scenario, cable: str) -> BeamConstants:
+    """The section that the scenario asks for; `cable` is what `cell` homogenizes.
+
+    Raises
+    ------
+    SpecError
+        If the scenario's constants are neither published, cell nor a readable file.
+    """
+    name = scenario.constants
+    if name == "published":
+        return BeamConstants(
+            name, published_section(scenario), "published: E 142, G_yoz 53, G_xoz 45 MPa (short specimen)"
+        )
+    if name == "cell":
+        with progress("homogenizing") as tell:
+            section = homogenize_cable(read_cable(cable), progress=tell).section
+        return BeamConstants(name, section, f"cell: long cable {cable}, all parts bonded, averaged over the pitch")
+    return BeamConstants(name, _from_file(Path(name)), f"from the file {name}")
+
+
+def _from_file(path: Path) -> SectionStiffness:
+    if not path.is_file():
+        raise SpecError(
+            f'constants "{path}" are not known: use published, cell, or a file written by helicable homogenize --json.'
+        )
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+        return SectionStiffness(np.array(record["section"]["C"], dtype=float), float(record["area"]))
+    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise SpecError(f"{path} is not a JSON file that can be read: {error}.") from None
+    except SpecError:
+        raise
+    except (KeyError, TypeError, ValueError):
+        raise SpecError(
+            f"{path} does not hold a complete 6x6 section.C and an area; write it with helicable homogenize CABLE --json."
+        ) from None

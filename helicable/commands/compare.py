@@ -1,0 +1,66 @@
+"""`helicable compare`: a campaign of measurements beside the linear model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from compare import BenchModel, BenchSection, Campaign, NominalSection, plot_comparison
+from compare import compare as compare_with
+from geometry import read_cable
+from geometry.errors import ConvergenceError
+from helicable.options import JsonOption, OutOption
+from helicable.screen import folder, progress, say, table, write_json
+from homogenize import homogenize_cable
+
+
+def compare(
+    campaign: Annotated[
+        Path, typer.Argument(metavar="CAMPAIGN", help="Folder with campaign.toml and experiments.csv.")
+    ],
+    json: JsonOption = None,
+    out: OutOption = None,
+) -> None:
+    """Compare measurements with the linear cable model, after calibrating its stiffness.
+
+    Example: `helicable compare my-campaign --out report`
+    """
+    read = Campaign.read(campaign)
+    section = campaign_section(read, campaign)
+    with progress("comparing") as tell:
+        comparison = compare_with(BenchModel(section), read, progress=tell)
+    record = comparison.record()
+    say(f"[bold]{read.title}[/bold]\n{comparison.headline()}\n")
+    rows = [
+        (r["id"], r["kind"], r["channel"], r["set"], *(_short(r[k]) for k in ("rmse", "bias", "noise_floor", "excess")))
+        for r in record["experiments"]
+    ]
+    columns = ("id", "kind", "channel", "set", "rmse", "bias", "noise floor", "excess")
+    table("Calibrated model against measurement (SI units)", columns, rows, right=(4, 5, 6, 7))
+    calibrated = [(k, _short(v["value"]), _short(v["std"]), v["unit"]) for k, v in record["calibrated"].items()]
+    table("Calibrated stiffness", ("", "value", "std", "unit"), calibrated, right=(1, 2))
+    for note in comparison.notes:
+        say(f"- {note}")
+    write_json(json, record)
+    if out is not None:
+        pictures = plot_comparison(comparison, folder(out))
+        write_json(out / "comparison.json", record)
+        say("written: " + ", ".join(str(p) for p in (*pictures, out / "comparison.json")))
+    if not comparison.fits:
+        raise ConvergenceError("no experiment of this campaign could be compared; see the notes above.")
+
+
+def campaign_section(campaign: Campaign, folder: Path) -> BenchSection:
+    """The section the campaign states; its cable is homogenized where it names one."""
+    if campaign.cable is None:
+        return NominalSection(campaign.stated_section)
+    path = folder / campaign.cable
+    with progress("homogenizing") as tell:
+        base = homogenize_cable(read_cable(path if path.is_file() else campaign.cable), progress=tell).section
+    return NominalSection(campaign.stated_section, base) if campaign.stated_section else base
+
+
+def _short(value: float | None) -> str:
+    return "-" if value is None else f"{value:.4g}"

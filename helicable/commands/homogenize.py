@@ -1,0 +1,212 @@
+"""`helicable homogenize`: the constants of the beam equivalent to a long cable."""
+
+from __future__ import annotations
+
+import time
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+
+from geometry import Cable, read_cable
+from geometry.errors import SpecError
+from geometry.units import read_quantity
+from helicable.options import CableArgument, JsonOption, OutOption, SizeOption
+from helicable.published import modulus_rows
+from helicable.screen import folder, progress, say, table, write_json
+from homogenize import ORDER, Homogenization, PeriodicCell, homogenize_cable, slice_stiffness
+
+INTERFACES = "bonded"
+METHODS = ("helical", "cell")
+
+
+def homogenize(
+    cable: CableArgument,
+    method: Annotated[
+        str, typer.Option(help="`helical`: 2D cell, the whole 6x6; `cell`: 3D periodic slice, tension and torsion.")
+    ] = "helical",
+    interface: Annotated[str, typer.Option(help="How the parts hold together: `bonded`.")] = INTERFACES,
+    size: SizeOption = "1.5 mm",
+    phase: Annotated[str, typer.Option(help="Angle of the section for the values at a phase.")] = "0 deg",
+    json: JsonOption = None,
+    out: OutOption = None,
+) -> None:
+    """Compute E, G_yoz, G_xoz and the 6x6 section stiffness of a long cable.
+
+    Example: `helicable homogenize mcpt-1.9-3.3-3x35 --json section.json`
+    """
+    _check_choices(method, interface)
+    made = read_cable(cable)
+    element = read_quantity(size, "m", "--size")
+    angle = read_quantity(phase, "rad", "--phase")
+    if method == "cell":
+        with progress("3D periodic cell") as tell:
+            start = time.perf_counter()
+            cell = slice_stiffness(made, size=element, progress=tell)
+        show_slice(made, cell)
+        write_json(json, slice_record(made, cell, time.perf_counter() - start))
+        return
+    with progress("2D helical cell") as tell:
+        result = homogenize_cable(made, size=element, progress=tell)
+    show_constants(result, angle)
+    write_json(json, homogenization_record(result, angle))
+    if out is not None:
+        from geometry import draw_mesh
+
+        write_json(folder(out) / "section.json", homogenization_record(result, angle))
+        draw_mesh(result.mesh, out / "mesh.png")
+        say(f"written: {out / 'section.json'}, {out / 'mesh.png'}")
+
+
+def _check_choices(method: str, interface: str) -> None:
+    if method not in METHODS:
+        raise SpecError(f'--method "{method}" is not known; choose helical or cell.')
+    if interface != INTERFACES:
+        raise SpecError(
+            f'--interface "{interface}" is not available: this version bonds all parts; use --interface bonded.'
+        )
+
+
+def constant_rows(result: Homogenization) -> list[tuple[str, str, str]]:
+    """Quantity, value and definition, for terminal and report."""
+    s, a = result.section, result.average
+    lower, upper = result.bounds
+    return [
+        ("E, twist blocked", f"{a.E_blocked_twist / 1e6:.1f} MPa", "mean stress / mean strain, no twist"),
+        ("E, ends free to twist", f"{a.E_free_twist / 1e6:.1f} MPa", "mean stress / mean strain, no torque"),
+        ("G_yoz = G_xoz", f"{a.G_yoz / 1e6:.2f} MPa", "mean shear stress / mean shear strain, averaged over the pitch"),
+        ("EA, twist blocked", f"{s.EA_blocked_twist / 1e6:.3f} MN", "C33 of the 6x6"),
+        ("EA, ends free to twist", f"{s.EA_free_twist / 1e6:.3f} MN", "C33 - C36^2 / C66"),
+        (
+            "bounds of EA",
+            f"{lower / 1e6:.3f} .. {upper / 1e6:.3f} MN",
+            "central conductor .. sum of E A with Poisson mismatch",
+        ),
+        ("stretch-twist coupling", f"{s.coupling / 1e3:.3f} kN m", "C36: torque per unit stretch"),
+        ("GJ", f"{s.GJ:.2f} N m2", "C66, stretch blocked"),
+        ("EI_x = EI_y", f"{s.EI_x:.2f} N m2", "moment / curvature, constant moment, all bonded"),
+        (
+            "GA_x = GA_y",
+            f"{s.GA_x / 1e3:.1f} kN",
+            "beam shear stiffness: energy of a shear force and the moment it builds up",
+        ),
+    ]
+
+
+def show_constants(result: Homogenization, phase: float = 0.0) -> None:
+    """Print constants, published values and checks."""
+    cable = result.cable
+    table(
+        f"{cable.name}: long cable, all parts bonded; moduli refer to {1e6 * result.section.area:.0f} mm2",
+        ("quantity", "value", "definition"),
+        constant_rows(result),
+        right=(1,),
+    )
+    G_yoz, G_xoz = result.average.shear_moduli_at(phase)
+    say(f"At phase {np.degrees(phase):.0f} deg: G_yoz {G_yoz / 1e6:.2f} MPa, G_xoz {G_xoz / 1e6:.2f} MPa.\n")
+    rows = [
+        (r.quantity, f"{r.published / 1e6:.0f}", f"{r.computed / 1e6:.1f}", f"{r.ratio:.2g}")
+        for r in modulus_rows(result)
+    ]
+    table(
+        "Beside the published values (another question: a short specimen)",
+        ("", "published MPa", "computed MPa", "ratio"),
+        rows,
+        right=(1, 2, 3),
+    )
+    checks = [("holds" if c.holds else "FAILS", c.name, c.sentence) for c in result.checks]
+    table("Checks", ("", "check", "found"), checks)
+    say(f"{result.cell.field.unknowns} unknowns, {len(result.mesh.cells)} elements, {result.seconds:.1f} s")
+
+
+def show_slice(cable: Cable, cell: PeriodicCell) -> None:
+    """Print the result of the 3D cell."""
+    EA, coupling, GJ = cell.stiffness[0, 0], cell.stiffness[0, 1], cell.stiffness[1, 1]
+    rows = [
+        ("EA, twist blocked", f"{EA / 1e6:.3f} MN"),
+        ("EA, ends free to twist", f"{(EA - coupling**2 / GJ) / 1e6:.3f} MN"),
+        ("stretch-twist coupling", f"{coupling / 1e3:.3f} kN m"),
+        ("GJ", f"{GJ:.2f} N m2"),
+    ]
+    table(f"{cable.name}: 3D periodic slice, all parts bonded", ("quantity", "value"), rows, right=(1,))
+    say(f"{cell.unknowns} unknowns, {cell.iterations[0]} and {cell.iterations[1]} iterations of conjugate gradients")
+
+
+def homogenization_record(result: Homogenization, phase: float = 0.0) -> dict[str, Any]:
+    """The JSON of `helicable homogenize`, method helical."""
+    s, a = result.section, result.average
+    G_yoz, G_xoz = a.shear_moduli_at(phase)
+    return {
+        **_head(result.cable, s.area),
+        "section": {
+            "order": list(ORDER),
+            "C": s.C,
+            "EA_blocked_twist": s.EA_blocked_twist,
+            "EA_free_twist": s.EA_free_twist,
+            "GJ": s.GJ,
+            "coupling": s.coupling,
+            "EI_x": s.EI_x,
+            "EI_y": s.EI_y,
+            "GA_x": s.GA_x,
+            "GA_y": s.GA_y,
+            "phase": "averaged over the pitch",
+        },
+        "E_blocked_twist": a.E_blocked_twist,
+        "E_free_twist": a.E_free_twist,
+        "G_yoz": a.G_yoz,
+        "G_xoz": a.G_xoz,
+        "at_phase": {"phase": phase, "G_yoz": G_yoz, "G_xoz": G_xoz, "C": result.phase_zero.turned(phase).C},
+        "bounds": {"EA_lower": result.bounds[0], "EA_upper": result.bounds[1]},
+        "checks": [{"name": c.name, "holds": c.holds, "found": c.sentence} for c in result.checks],
+        "published": {"E": 142e6, "G_yoz": 53e6, "G_xoz": 45e6},
+        "mesh": {"unknowns": result.cell.field.unknowns, "elements": len(result.mesh.cells)},
+        "method": "helical",
+        "interface": INTERFACES,
+        "seconds": result.seconds,
+        "notes": [
+            "long cable, all parts bonded; the published values belong to a short specimen and are not a target",
+            "GA is the beam's shear stiffness by energy; G_yoz and G_xoz are volume averages (formula 3)",
+        ],
+    }
+
+
+def slice_record(cable: Cable, cell: PeriodicCell, seconds: float) -> dict[str, Any]:
+    """The JSON of `helicable homogenize --method cell`: tension and torsion, the other entries null."""
+    C: list[list[float | None]] = [[None] * 6 for _ in range(6)]
+    (EA, coupling), (_, GJ) = cell.stiffness
+    C[2][2], C[2][5], C[5][2], C[5][5] = float(EA), float(coupling), float(coupling), float(GJ)
+    free = EA - coupling**2 / GJ
+    nothing = dict.fromkeys(("EI_x", "EI_y", "GA_x", "GA_y"))
+    section = {
+        "order": list(ORDER),
+        "C": C,
+        "EA_blocked_twist": EA,
+        "EA_free_twist": free,
+        "GJ": GJ,
+        "coupling": coupling,
+    }
+    return {
+        **_head(cable, cable.area),
+        "section": {**section, **nothing},
+        "E_blocked_twist": EA / cable.area,
+        "E_free_twist": free / cable.area,
+        "G_yoz": None,
+        "G_xoz": None,
+        "bounds": {"EA_lower": None, "EA_upper": None},
+        "mesh": {"unknowns": cell.unknowns, "elements": None},
+        "method": "cell",
+        "interface": INTERFACES,
+        "iterations": list(cell.iterations),
+        "seconds": seconds,
+        "notes": ["the 3D slice serves tension and torsion; bending, shear and bounds come from --method helical"],
+    }
+
+
+def _head(cable: Cable, area: float) -> dict[str, Any]:
+    return {
+        "schema": 1,
+        "cable": cable.name,
+        "outer_diameter": cable.outer_diameter,
+        "area": area,
+        "mass_per_length": cable.mass_per_length,
+    }

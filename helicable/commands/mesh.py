@@ -1,0 +1,49 @@
+"""`helicable mesh`: the helical slice of a cable as a mesh file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from geometry import read_cable
+from helicable.options import CableArgument, JsonOption
+from helicable.screen import progress, say, table, write_json
+
+
+def mesh(
+    cable: CableArgument,
+    out: Annotated[Path, typer.Option("--out", metavar="FILE", help="Mesh file: .vtu or .msh.")] = Path("cell.vtu"),
+    elements: Annotated[int, typer.Option(help="At least that many volume elements.")] = 10_000,
+    json: JsonOption = None,
+) -> None:
+    """Mesh one helical slice of the cable with hexahedra whose end faces match node for node.
+
+    Example: `helicable mesh mcpt-1.9-3.3-3x35 --elements 20000 --out cell.vtu`
+    """
+    from geometry import mesh_cable
+
+    made = read_cable(cable)
+    with progress("meshing") as tell:
+        record = mesh_cable(made, elements, out, progress=tell)
+    rows = [
+        ("hexahedra", f"{record['hexes']}"),
+        ("nodes", f"{record['nodes']}"),
+        ("height of the slice", f"{1e3 * record['height']:.3f} mm"),
+        ("smallest scaled Jacobian", f"{record['min_scaled_jacobian']:.3f}"),
+        ("end faces match", "yes" if record["matched_faces"] else "NO"),
+    ]
+    table(f"{made.name}: helical slice", ("", "value"), rows, right=(1,))
+    regions = [
+        (
+            name,
+            f"{1e9 * r['volume']:.3f}",
+            f"{1e9 * r['closed_form']:.3f}",
+            f"{100 * (r['volume'] / r['closed_form'] - 1):+.2f}",
+        )
+        for name, r in record["regions"].items()
+    ]
+    table("Volumes", ("region", "mesh mm3", "closed form mm3", "difference %"), regions, right=(1, 2, 3))
+    say(f"written: {out}")
+    write_json(json, record)

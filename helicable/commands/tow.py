@@ -1,0 +1,133 @@
+"""`helicable tow`: run a towing scenario with the rod."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from beam import TowingRun, builtin_scenarios, read_scenario
+from beam import tow as run_towing
+from geometry.errors import ConvergenceError, SpecError
+from helicable.beam_constants import BeamConstants, beam_constants
+from helicable.options import JsonOption
+from helicable.screen import folder, progress, say, table, write_json
+
+REFERENCE_CABLE = "mcpt-1.9-3.3-3x35"
+
+
+def tow(
+    scenario: Annotated[
+        str | None, typer.Argument(metavar="SCENARIO", help="A built-in scenario or a TOML file.")
+    ] = None,
+    constants: Annotated[
+        str | None, typer.Option(metavar="NAME", help="`published`, `cell`, or a JSON file of `helicable homogenize`.")
+    ] = None,
+    cable: Annotated[str, typer.Option(metavar="CABLE", help="Cable that `cell` homogenizes.")] = REFERENCE_CABLE,
+    show_list: Annotated[bool, typer.Option("--list", help="List the built-in scenarios.")] = False,
+    json: JsonOption = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="DIR", help="Write run.nc, curves and pictures here.")
+    ] = None,
+) -> None:
+    """Run a towing scenario: static start, contact, friction, forces along the cable.
+
+    Example: `helicable tow intelligent-horizontal --constants published --out towing`
+    """
+    if show_list:
+        table(
+            "Built-in scenarios",
+            ("name", "title"),
+            [(s.name, s.title) for s in map(read_scenario, builtin_scenarios())],
+        )
+        return
+    if scenario is None:
+        raise SpecError("no scenario was named: try helicable tow intelligent-horizontal, or helicable tow --list.")
+    run, used = towing_run(scenario, constants, cable)
+    show_run(run, used)
+    record = towing_json(run, used)
+    if out is not None:
+        written = [run.write(folder(out) / "run.nc"), *draw_run(run, out)]
+        record["run"] = str(written[0])
+        write_json(out / "tow.json", record)
+        say("written: " + ", ".join(map(str, written)))
+    write_json(json, record)
+    if not run.outcome.completed:
+        raise ConvergenceError(run.status)
+
+
+def towing_run(scenario: str, constants: str | None, cable: str) -> tuple[TowingRun, BeamConstants]:
+    """Read a scenario, resolve its constants, and run it with progress."""
+    read = read_scenario(scenario)
+    if constants is not None:
+        read = read.model_copy(update={"constants": constants})
+    used = beam_constants(read, cable)
+    with progress("towing") as tell:
+        run = run_towing(read, used.section, progress=tell)
+    return run, used
+
+
+def published_rows(run: TowingRun) -> list[tuple[str, str, str, str]]:
+    """Quantity, published, computed, why they differ."""
+    r = run.record()
+    nodes, published = r["nodes"], r["published"]
+    why = (
+        "mass, friction, length and damping of the real system are not published; the scale of the published "
+        "simulation is 1 : 2.5, and its clamps and bushings enter here as mass only"
+    )
+
+    def row(name: str, key: str, computed: float) -> tuple[str, str, str, str]:
+        value = published.get(key)
+        return name, "-" if value is None else f"{value:.0f} N", f"{computed:.0f} N", why if value is not None else ""
+
+    return [
+        row("node 54, Fx steady after 6 s", "node_54_Fx_plateau", nodes["54"]["Fx_plateau"]),
+        row("node 220, Fy steady", "node_220_Fy_plateau", nodes["220"]["Fy_plateau"]),
+        row("node 370, Fx at most", "node_370_Fx_max", nodes["370"]["Fx_max"]),
+    ]
+
+
+def run_rows(run: TowingRun) -> list[tuple[str, str]]:
+    """Facts about the run."""
+    r = run.record()
+    return [
+        ("status", r["status"]),
+        ("peak tension", f"{r['peak_tension']:.1f} N"),
+        ("pull force, steady", f"{r['pull_force_plateau']:.1f} N"),
+        ("formula (22), largest", f"{r['formula_22_peak']:.1f} N"),
+        ("formula (23), largest", f"{r['formula_23_peak']:.1f} N"),
+        ("energy balance error", f"{abs(r['energy_balance_error']):.1e} of the throughput"),
+        ("static residual at the start", f"{r['static_residual']['force']:.1e} N"),
+        ("deepest penetration", f"{1e3 * r['deepest_penetration']:.3f} mm"),
+        ("time", f"{r['seconds_simulated']:.2f} s simulated in {r['seconds_wall']:.1f} s, {r['elements']} elements"),
+    ]
+
+
+def show_run(run: TowingRun, used: BeamConstants) -> None:
+    """Print the run."""
+    say(f"[bold]{run.scenario.title}[/bold]\nconstants {used.sentence}\n")
+    table("Run", ("", "value"), run_rows(run), right=())
+    table("Published and computed", ("", "published", "computed"), [r[:3] for r in published_rows(run)], right=(1, 2))
+
+
+def towing_json(run: TowingRun, used: BeamConstants) -> dict[str, Any]:
+    """The JSON of `helicable tow`."""
+    return {**run.record(), "constants_from": used.sentence, "run": None}
+
+
+def draw_run(run: TowingRun, out: Path) -> list[Path]:
+    """Curves and the picture of the cable."""
+    from beam.towing_plot import cable_figure, energy_figure, node_force_figure, pull_force_figure
+
+    written = []
+    figures = {
+        "cable": cable_figure,
+        "node-forces": node_force_figure,
+        "pull-force": pull_force_figure,
+        "energies": energy_figure,
+    }
+    for name, draw in figures.items():
+        written.append(out / f"towing-{name}.png")
+        draw(run).savefig(written[-1], dpi=150)
+    return written

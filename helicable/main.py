@@ -1,0 +1,70 @@
+"""The entry point `helicable`: verbs, exit codes, and errors as sentences.
+
+Exit codes: 0 done; 1 it ran, but the result was not reached; 2 the input cannot be used (one sentence on stderr).
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+import typer
+
+from geometry.errors import ConvergenceError, InputError
+from helicable.commands.cables import cables
+from helicable.commands.compare import compare
+from helicable.commands.demo import demo
+from helicable.commands.homogenize import homogenize
+from helicable.commands.mesh import mesh
+from helicable.commands.show import show
+from helicable.commands.tow import tow
+from helicable.screen import errors
+
+app = typer.Typer(
+    name="helicable",
+    help="From the drawing of a helical cable to its beam stiffness, its towing run, and what measurements say.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="markdown",
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+for command in (cables, show, mesh, homogenize, tow, compare, demo):
+    app.command()(command)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit code.
+
+    Examples
+    --------
+    >>> main(["homogenize", "no-such-cable"])
+    2
+    """
+    try:
+        result = app(args=None if arguments is None else list(arguments), standalone_mode=False)
+    except InputError as error:
+        return _fail(str(error), 2)
+    except ConvergenceError as error:
+        return _fail(str(error), 1)
+    except KeyboardInterrupt:
+        return _fail("stopped by the user; files already written are complete.", 1)
+    except Exception as error:
+        if not (hasattr(error, "show") and hasattr(error, "exit_code")):  # not a usage error of the command line itself
+            raise
+        error.show()  # pyright: ignore[reportAttributeAccessIssue]
+        return 2
+    return int(result) if isinstance(result, int) else 0
+
+
+def run() -> None:
+    """Console script."""
+    sys.exit(main())
+
+
+def _fail(sentence: str, code: int) -> int:
+    errors.print(f"helicable: {sentence}", markup=False, soft_wrap=True)
+    return code
+
+
+if __name__ == "__main__":
+    run()
