@@ -13,16 +13,13 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-import skfem
 from numpy.typing import NDArray
 
 from geometry.cell_mesh import SliceMesh
-from geometry.errors import MeshError
+from homogenize.element_basis import element_basis
 
 CHUNK = 20_000
 """Elements assembled at a time; keeps the element matrices (4.6 kB each) in cache and memory low."""
-
-_SKFEM_FROM_MESHIO = {"hexahedron": [6, 2, 5, 7, 1, 3, 4, 0], "wedge": [0, 1, 2, 3, 4, 5]}
 
 
 def stiffness_matrix(mesh: SliceMesh) -> sp.bsr_array:
@@ -33,11 +30,10 @@ def stiffness_matrix(mesh: SliceMesh) -> sp.bsr_array:
     MeshError
         If an element is turned inside out; the message names its region and place.
     """
-    gradient, weight = _gradients(mesh)
+    cells, gradient, weight = _basis(mesh)
     G = np.array([r.material.G for r in mesh.regions])[mesh.region_of]
     lame = np.array([r.material.lame for r in mesh.regions])[mesh.region_of]
     n = len(mesh.points)
-    cells = mesh.cells
     k = cells.shape[1]
     pair = (cells[:, :, None] * n + cells[:, None, :]).ravel()
     keys, inverse = np.unique(pair, return_inverse=True)
@@ -56,49 +52,17 @@ def stiffness_matrix(mesh: SliceMesh) -> sp.bsr_array:
 
 def region_volumes(mesh: SliceMesh) -> NDArray[np.float64]:
     """Volume of each region [m^3], shape (regions,)."""
-    _, weight = _gradients(mesh)
+    _, _, weight = _basis(mesh)
     return np.asarray(np.bincount(mesh.region_of, weight.sum(axis=1), len(mesh.regions)), dtype=float)
 
 
-def _gradients(mesh: SliceMesh) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Gradients (e, q, a, x) [1/m] and weights (e, q) [m^3] at the quadrature points."""
-    kinds = {
-        "hexahedron": (skfem.MeshHex1, skfem.ElementHex1()),
-        "wedge": (skfem.MeshWedge1, skfem.ElementWedge1()),
-    }
-    if mesh.cell_kind not in kinds:
-        raise MeshError(f'a slice of "{mesh.cell_kind}" cells cannot be solved; use hexahedron or wedge.')
-    make, element = kinds[mesh.cell_kind]
-    order = _SKFEM_FROM_MESHIO[mesh.cell_kind]
-    skfem_mesh = make(np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(mesh.cells[:, order].T))
-    basis = skfem.CellBasis(skfem_mesh, element, quadrature=_quadrature(mesh.cell_kind))
-    weight = np.asarray(basis.dx)
-    jacobian = np.asarray(basis.mapping.detDF(basis.X))
-    folded = jacobian.min(axis=1) * jacobian.max(axis=1) <= 0
-    if folded.any():
-        e = int(np.argmax(folded))
-        x, y, z = 1e3 * mesh.points[mesh.cells[e]].mean(axis=0)
-        raise MeshError(
-            f"an element of {mesh.regions[mesh.region_of[e]].name} near ({x:.2f}, {y:.2f}, {z:.2f}) mm is turned inside "
-            "out; ask for more layers or a smaller element size."
-        )
-    gradient = np.empty((*weight.shape, len(order), 3))
-    for position, a in enumerate(order):
-        gradient[:, :, a, :] = np.moveaxis(np.asarray(basis.basis[position][0].grad), 0, -1)
-    return gradient, weight
-
-
-def _quadrature(kind: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Gauss points (3, q) and weights (q,): 2 x 2 x 2 in the brick; 3 in the triangle times 2 in height in the wedge.
-
-    The wedge rule of scikit-fem 12.0.2 is not used: its weights add up to 1/4 instead of the volume 1/2.
-    """
-    line = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3)
-    if kind == "hexahedron":
-        return np.array(np.meshgrid(line, line, line, indexing="ij")).reshape(3, -1), np.full(8, 1 / 8)
-    triangle = np.array([[1 / 6, 1 / 6], [2 / 3, 1 / 6], [1 / 6, 2 / 3]]).T
-    points = np.concatenate([np.vstack([triangle, np.full((1, 3), z)]) for z in line], axis=1)
-    return points, np.full(6, 1 / 12)
+def _basis(mesh: SliceMesh) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    """Nodes (e, a), gradients (e, q, a, x) [1/m] and weights (e, q) [m^3] at the quadrature points."""
+    basis = element_basis(
+        mesh.points, mesh.cells, mesh.cell_kind, lambda e: f"an element of {mesh.regions[mesh.region_of[e]].name}"
+    )
+    gradient = np.ascontiguousarray(basis.gradient.transpose(2, 3, 1, 0))
+    return np.ascontiguousarray(basis.cells.T), gradient, basis.weight
 
 
 def _element_blocks(

@@ -22,11 +22,10 @@ from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
-import skfem
 from numpy.typing import NDArray
 
 from geometry.cell_mesh import CrossSectionMesh
-from geometry.errors import MeshError
+from homogenize.element_basis import element_basis
 
 FloatArray = NDArray[np.float64]
 
@@ -128,44 +127,23 @@ def section_field(mesh: CrossSectionMesh) -> SectionField:
     Raises
     ------
     MeshError
-        If an element is turned inside out (its area is not positive); the message names its region and place.
+        If an element is turned inside out; the message names its region and place.
     """
-    skfem_mesh, element = _skfem_mesh(mesh)
-    basis = skfem.CellBasis(skfem_mesh, element, intorder=4)
-    k = basis.Nbfun
-    weight = np.asarray(basis.dx)
-    if weight.min() <= 0:
-        e = int(np.argmin(weight.min(axis=1)))
-        x, y = 1e3 * np.asarray(basis.global_coordinates())[:, e, 0]
-        raise MeshError(
-            f"an element of {mesh.regions[mesh.region_of[e]].name} near ({x:.2f}, {y:.2f}) mm is turned inside out; "
-            "ask for a smaller element size."
-        )
-    shape = np.array([np.broadcast_to(np.asarray(basis.basis[a][0]), weight.shape)[0] for a in range(k)])
-    gradient = np.stack([np.asarray(basis.basis[a][0].grad) for a in range(k)], axis=1)
+    basis = element_basis(
+        mesh.points, mesh.cells, mesh.cell_kind, lambda e: f"an element of {mesh.regions[mesh.region_of[e]].name}"
+    )
     by_region = np.array([region.material.elasticity() for region in mesh.regions])
     return SectionField(
-        nodes=np.asarray(basis.doflocs),
-        cells=np.asarray(basis.element_dofs, dtype=np.int64),
-        shape=shape,
-        gradient=gradient,
-        weight=weight,
-        position=np.asarray(basis.global_coordinates()),
+        nodes=basis.nodes,
+        cells=basis.cells,
+        shape=basis.shape,
+        gradient=basis.gradient,
+        weight=basis.weight,
+        position=basis.position,
         elasticity=by_region[mesh.region_of],
         region_of=mesh.region_of,
         twist_rate=mesh.twist_rate,
     )
-
-
-def _skfem_mesh(mesh: CrossSectionMesh) -> tuple[skfem.Mesh, skfem.Element]:
-    kinds = {
-        "triangle": (skfem.MeshTri1, skfem.ElementTriP2()),
-        "triangle6": (skfem.MeshTri2, skfem.ElementTriP2()),
-        "quad": (skfem.MeshQuad1, skfem.ElementQuad2()),
-        "quad9": (skfem.MeshQuad2, skfem.ElementQuad2()),
-    }
-    make, element = kinds[mesh.cell_kind]
-    return make(np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(mesh.cells.T)), element
 
 
 def _gram(field: SectionField, left: FloatArray, right: FloatArray) -> sp.csr_array:
