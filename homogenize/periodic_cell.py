@@ -27,6 +27,9 @@ from homogenize.mean_dilatation import stiffness_matrix
 
 Progress = Callable[[float, str], None]
 
+STRENGTH_THRESHOLD = 0.1
+"""Of smoothed aggregation: at a contrast of 20 000 it needs a fraction of the iterations of 0 (benchmarks/cell.py)."""
+
 MATCHING_TOLERANCE = 1e-9
 """Largest allowed gap [m] between a top node and the image of its partner."""
 
@@ -139,17 +142,14 @@ def _rigid_modes(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _multigrid(K: sp.bsr_array, points: NDArray[np.float64]) -> Callable:
-    """Solver by conjugate gradients with one smoothed aggregation hierarchy for all loads.
-
-    The strength threshold 0.1 needs a quarter of the iterations of 0 at a contrast of 20 000 (benchmarks/cell.py).
-    """
+    """Solver by conjugate gradients with one smoothed aggregation hierarchy for all loads."""
     import pyamg
 
     matrix = sp.bsr_matrix(K)
     hierarchy: Any = pyamg.smoothed_aggregation_solver(
         matrix,
         B=_rigid_modes(points),
-        strength=("symmetric", {"theta": 0.1}),  # pyright: ignore[reportArgumentType]
+        strength=("symmetric", {"theta": STRENGTH_THRESHOLD}),  # pyright: ignore[reportArgumentType]
         smooth=("jacobi", {"omega": 4.0 / 3.0, "weighting": "block"}),
         presmoother=("block_gauss_seidel", {"sweep": "symmetric"}),
         postsmoother=("block_gauss_seidel", {"sweep": "symmetric"}),
