@@ -178,7 +178,8 @@ class Scenario(_Part):
 
     @model_validator(mode="after")
     def _can_be_true(self) -> Scenario:
-        for fault in (self._shape_fault(), self._stroke_fault(), self._mesh_fault(), self._time_fault()):
+        for check in (self._time_fault, self._shape_fault, self._stroke_fault, self._mesh_fault):
+            fault = check()
             if fault:
                 raise SpecError(fault)
         return self

@@ -1,8 +1,8 @@
 r"""Section forces at the nodes, in the section's own axes and in global axes.
 
-They are known at the Gauss points; a node takes the mean of the nearest Gauss point on either side (between the elements'
-ends the strains of a bent Hermite element oscillate, at the Gauss points they are accurate). Global components are
-n = R N and m = R M: what the part on the side of growing arc length exerts on the part before it.
+They are known at the Gauss points, where the strains of a bent Hermite element are accurate (in between they oscillate).
+Global components are n = R N and m = R M: what the part on the side of growing arc length exerts on the part before it.
+A node takes the mean of n and m at the nearest Gauss point on either side, and turns it into its own axes by R^T.
 """
 
 from __future__ import annotations
@@ -37,7 +37,10 @@ def nodal_section_forces(q: Array, lengths: Array, S: Array) -> tuple[Array, Arr
         R = rotation_matrix(_interpolate_rotation(q, lengths, float(x)))
         turned[:, g, :3] = np.einsum("eij,ej->ei", R, S[:, g, :3])
         turned[:, g, 3:] = np.einsum("eij,ej->ei", R, S[:, g, 3:])
-    return _to_nodes(S), _to_nodes(turned)
+    nodal = _to_nodes(turned)
+    R = rotation_matrix(q[:, 6:9])
+    local = np.concatenate([np.einsum("nij,ni->nj", R, nodal[:, k : k + 3]) for k in (0, 3)], axis=1)
+    return local, nodal
 
 
 def _interpolate_rotation(q: Array, lengths: Array, x: float) -> Array:

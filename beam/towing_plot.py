@@ -31,7 +31,7 @@ PUBLISHED_STYLE: dict[str, Any] = {"color": "#444444", "linestyle": (0, (5, 3)),
 
 
 def cable_figure(run: TowingRun, times: tuple[float, ...] | None = None) -> Figure:
-    """Side view of the cable at several times, tension as colour; trough, deck and roller drawn. Height is stretched."""
+    """Side view of the cable at several times, tension as colour; trough, deck and roller drawn. The height is stretched."""
     data = run.dataset
     end = float(data["time"].values[-1])
     times = times or (0.0, end / 3, 2 * end / 3, end)
@@ -45,11 +45,8 @@ def cable_figure(run: TowingRun, times: tuple[float, ...] | None = None) -> Figu
     assert lines is not None
     np.atleast_1d(axes)[-1].set_xlabel("x along the trough [m], shearer travels to the right")
     figure.colorbar(lines, ax=axes, label="tension [N]", shrink=0.9, pad=0.01)
-    figure.suptitle(f"{run.scenario.title}\nside view, centre line (height drawn {HEIGHT_SCALE:g} times)", fontsize=11)
+    figure.suptitle(f"{run.scenario.title}\nside view of the centre line, height stretched", fontsize=11)
     return figure
-
-
-HEIGHT_SCALE = 3.0
 
 
 def _draw_cable(
@@ -70,18 +67,15 @@ def _draw_cable(
     for number in PUBLISHED_NODES:
         x, y = data["position"].sel(node=run.node(number)).values[k, :2]
         ax.plot([x], [y], "o", ms=5, mfc="white", mec=NODE_COLOURS[number], mew=1.5, zorder=4)
-        above = y > R
-        ax.annotate(
-            str(number), (x, y), (0, 6 if above else -13), textcoords="offset points", ha="center", fontsize=8,
-            color=NODE_COLOURS[number],
-        )  # fmt: skip
+        place, align = ((-7, -3), "right") if x < centre else ((0, 6 if y > R else -12), "center")
+        style: dict[str, Any] = {"textcoords": "offset points", "fontsize": 8, "color": NODE_COLOURS[number]}
+        ax.annotate(str(number), (x, y), place, ha=align, **style)
     ax.plot([0.0], [0.0], "s", color="black", ms=6, zorder=4)
     ax.annotate("supply", (0.0, 0.0), (6, 3), textcoords="offset points", fontsize=8)
     ax.annotate("shearer", tuple(xy[-1]), (6, -3), textcoords="offset points", fontsize=8)
     ax.plot(*xy[-1], ">", color="black", ms=6, zorder=4)
     ax.set(xlim=(-scenario.lower_strand - 2 * R, max(2.0, float(data["position"].values[:, :, 0].max()) + 1.2)))
     ax.set(ylim=(-0.25, 2 * R + 0.3), ylabel="y [m]")
-    ax.set_aspect(HEIGHT_SCALE)
     ax.text(0.995, 0.5, f"t = {t:.2f} s", transform=ax.transAxes, ha="right", va="center", fontsize=9)
     return lines
 
@@ -103,7 +97,7 @@ def node_force_figure(run: TowingRun) -> Figure:
     axes[0].set_ylabel("Fx [N], along the trough")
     axes[1].set_ylabel("Fy [N], normal to the trough")
     axes[1].set_xlabel("time [s]")
-    axes[0].legend(fontsize=8, loc="center right")
+    axes[0].legend(fontsize=8, loc="upper left")
     axes[0].set_title(f"{run.scenario.title}\nsection force of the shearer's side on the supply's side", fontsize=10)
     _finish(axes)
     return figure
@@ -121,7 +115,7 @@ def pull_force_figure(run: TowingRun) -> Figure:
     _published(ax, run.scenario.published_results.node_54_Fx_plateau, "published, node 54 steady", time)
     ax.set(xlabel="time [s]", ylabel="force [N]", ylim=(0, None))
     ax.set_title(f"{run.scenario.title}\npull force; constants: {run.scenario.constants}", fontsize=10)
-    ax.legend(fontsize=8, loc="center right")
+    ax.legend(fontsize=8, loc="upper left")
     _finish([ax])
     return figure
 
