@@ -126,13 +126,13 @@ class Comparison:
         size = self.relative_error("calibrate")
         other = self.relative_error("validate")
         errors = [
-            f"{v:.2f} x the noise floor on {s}" for s, v in (("calibrate", size), ("validate", other)) if v is not None
+            f"{v:.3g} x the noise floor on {s}" for s, v in (("calibrate", size), ("validate", other)) if v is not None
         ]
         failing = self.where_it_fails()
         if not failing:
             return f"{n} experiments, {', '.join(errors)}: {self._verdict_without_failures()}"
         worst = "; ".join(
-            f"{f.experiment.id} {f.channel} (excess {f.relative_excess:.1f} x floor)" for f in failing[:3]
+            f"{f.experiment.id} {f.channel} (excess {f.relative_excess:.3g} x floor)" for f in failing[:3]
         )
         return (
             f"{n} experiments, {', '.join(errors)}. Fails in {len(failing)} of {len(self.fits)} "

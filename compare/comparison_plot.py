@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_BLUE, _SKY, _VERMILLION, _GREY, _INK = "#0072B2", "#56B4E9", "#D55E00", "#9A9A9A", "#2B2B2B"
+_BLUE, _SKY, _VERMILLION, _GREY, _INK = "#0072B2", "#56B4E9", "#D55E00", "#8C8C8C", "#2B2B2B"
 _STYLE: dict[Any, Any] = {
     "font.size": 9,
     "axes.spines.top": False,
@@ -185,8 +185,6 @@ def _shared_legend(figure: Figure, repeats: bool) -> None:
 def overview_figure(comparison: Comparison) -> Figure:
     """Excess over the noise floor of every experiment and channel: bars after calibration, open circles before."""
     from matplotlib.figure import Figure
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
 
     failing = {id(f) for f in comparison.where_it_fails()}
     fits = sorted(
@@ -204,9 +202,11 @@ def overview_figure(comparison: Comparison) -> Figure:
     colours = [_VERMILLION if id(f) in failing else _SKY for f in fits]
     axes.barh(rows, after, height=0.72, color=colours)
     axes.plot(before, rows, "o", mfc="white", mec=_INK, ms=4.5, mew=1.0, clip_on=False)
-    for row, value, fit in zip(rows, after, fits, strict=True):
-        text = f" {fit.after.excess:.3g} {fit.unit}" if id(fit) in failing else " "
-        axes.text(value, row, text, va="center", ha="left", fontsize=7.5, color=_INK, zorder=5)
+    for row, fit in zip(rows, fits):
+        scale, unit = _force_scale(fit.unit, fit.after.excess)
+        size = f"{fit.after.excess * scale:.3g} {unit}" if id(fit) in failing else "within noise"
+        place = {"transform": axes.get_yaxis_transform(), "va": "center", "ha": "left", "fontsize": 7.5}
+        axes.text(1.015, row, size, color=_INK if id(fit) in failing else _GREY, **place)
     axes.set_yticks(rows, [f"{f.experiment.id}  {f.experiment.kind} {f.channel}" for f in fits], fontsize=7.5)
     axes.set_ylim(max(rows) + 0.8, min(rows) - 1.2)
     axes.set_xlim(0, 1.12 * max(1.0, float(np.max(after)), float(np.max(before))))
@@ -215,20 +215,27 @@ def overview_figure(comparison: Comparison) -> Figure:
     for name in dict.fromkeys(f.experiment.set for f in fits):
         start = min(r for r, f in zip(rows, fits, strict=True) if f.experiment.set == name)
         axes.text(0, start - 0.6, f" {name}", fontsize=8.5, fontweight="bold", color=_INK, va="bottom")
+    _finish_overview(figure, axes)
+    tail = f" (the {_MOST_BARS} largest; {hidden} more are smaller)" if hidden else ""
+    title = "Where the linear model fails" if failing else "The linear model: no record stands out of its noise"
+    figure.suptitle(f"{title}{tail}", x=0.01, ha="left", fontsize=12, fontweight="bold", color=_INK)
+    return figure
+
+
+def _finish_overview(figure: Figure, axes: Axes) -> None:
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
     axes.set_xlabel("excess over the noise floor [noise floors]")
     axes.grid(axis="x", color=_GREY, alpha=0.3, lw=0.6)
     axes.set_axisbelow(True)
     axes.tick_params(axis="y", length=0)
     handles = [
-        Patch(color=_VERMILLION, label="calibrated: beyond noise, with its size"),
-        Patch(color=_SKY, label="calibrated: noise explains it"),
+        Patch(color=_VERMILLION, label="calibrated, beyond noise"),
+        Patch(color=_SKY, label="calibrated, within noise"),
         Line2D([], [], ls="", marker="o", mfc="white", mec=_INK, ms=5, label="nominal stiffness"),
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False, fontsize=8)
-    tail = f" (the {_MOST_BARS} largest; {hidden} more are smaller)" if hidden else ""
-    title = "Where the linear model fails" if failing else "The linear model leaves nothing but noise"
-    figure.suptitle(f"{title}{tail}", x=0.01, ha="left", fontsize=12, fontweight="bold", color=_INK)
-    return figure
 
 
 def _rows_with_gaps(fits: Sequence[ChannelFit]) -> list[float]:

@@ -52,7 +52,7 @@ def comparison_record(comparison: Comparison) -> dict[str, Any]:
     }
     lost: list[str] = []
     content = _finite(content, "", lost)
-    reasons = [f"{path} is null: the number overflowed; check the size of the values in the tables." for path in lost]
+    reasons = [f"{path} is null: the data leave no finite number for it." for path in lost]
     return {**content, "notes": [*comparison.notes, *reasons]}
 
 
