@@ -46,14 +46,21 @@ def factor_block(A: Array, pivot: NDArray[np.int64]) -> bool:
 
 
 @kernel
-def solve_block(A: Array, pivot: NDArray[np.int64], B: Array) -> None:
-    """Replace the right-hand sides `B` (n, m) by the solutions; `A`, `pivot` from :func:`factor_block`."""
+def swap_rows(pivot: NDArray[np.int64], B: Array) -> None:
+    """Apply the row exchanges of a factorisation to `B` (n, m)."""
     n, m = B.shape
     for k in range(n):
         p = pivot[k]
         if p != k:
             for j in range(m):
                 B[k, j], B[p, j] = B[p, j], B[k, j]
+
+
+@kernel
+def solve_block(A: Array, pivot: NDArray[np.int64], B: Array) -> None:
+    """Replace the right-hand sides `B` (n, m) by the solutions; `A`, `pivot` from :func:`factor_block`."""
+    n, m = B.shape
+    swap_rows(pivot, B)
     for i in range(n):
         for k in range(i):
             factor = A[i, k]

@@ -7,7 +7,7 @@ give the same numbers, some hundred times slower. Kernels run on one core; paral
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeVar
+from typing import TypeVar, cast
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
@@ -24,4 +24,5 @@ def kernel(function: Function) -> Function:
     """
     if _numba is None:
         return function
-    return _numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(function)
+    compiled = _numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(function)
+    return cast(Function, compiled)

@@ -43,7 +43,15 @@ def gap_and_normal(p: Array, x: Array, n: Array) -> tuple[float, float]:
 
 @kernel
 def normal_force(
-    p: Array, gap: float, distance: float, u: Array, n: Array, want_tangent: bool, factor: float, normal: Array, K: Array
+    p: Array,
+    gap: float,
+    distance: float,
+    u: Array,
+    n: Array,
+    want_tangent: bool,
+    factor: float,
+    normal: Array,
+    K: Array,
 ) -> tuple[float, float, float, float]:
     """Normal force per length; returns its size, d(size)/d(gap) with damping, the closing speed and the power lost."""
     closing = -(n[0] * u[0] + n[1] * u[1] + n[2] * u[2])
@@ -154,6 +162,42 @@ def out_of_reach(p: Array, q: Array, e: int, length: float) -> bool:
 
 
 @kernel
+def interpolate_point(q: Array, v: Array, e: int, N: Array, drift: Array, x: Array, u: Array) -> None:
+    """Write position and velocity relative to `drift` (3 values from index 13 on) of a point of element `e`."""
+    n0, n1, n2, n3 = N[0], N[1], N[2], N[3]
+    for i in range(3):
+        x[i] = n0 * q[e, i] + n1 * q[e, 3 + i] + n2 * q[e + 1, i] + n3 * q[e + 1, 3 + i]
+        u[i] = n0 * v[e, i] + n1 * v[e, 3 + i] + n2 * v[e + 1, i] + n3 * v[e + 1, 3 + i] - drift[13 + i]
+
+
+@kernel
+def scatter_force(
+    e: int, x: float, weight: float, N: Array, normal: Array, shear: Array, F: Array, nodal: Array, friction: Array
+) -> None:  # fmt: skip
+    """Subtract the force of one point from `F`; collect it, and its friction part, at the two nodes."""
+    n0, n1, n2, n3 = N[0], N[1], N[2], N[3]
+    for i in range(3):
+        f, t = weight * (normal[i] + shear[i]), weight * shear[i]
+        F[e, i] -= n0 * f
+        F[e, 3 + i] -= n1 * f
+        F[e + 1, i] -= n2 * f
+        F[e + 1, 3 + i] -= n3 * f
+        nodal[e, i] += (1.0 - x) * f
+        nodal[e + 1, i] += x * f
+        friction[e, i] += (1.0 - x) * t
+        friction[e + 1, i] += x * t
+
+
+@kernel
+def friction_use(mu: float, normal: Array, shear: Array) -> float:
+    """|t| / (mu f_n), one in slip."""
+    fn2 = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]
+    if mu <= 0.0 or fn2 <= 0.0:
+        return 0.0
+    return np.sqrt((shear[0] * shear[0] + shear[1] * shear[1] + shear[2] * shear[2]) / fn2) / mu
+
+
+@kernel
 def contact_force(
     p: Array, q: Array, v: Array, lengths: Array, xs: Array, ws: Array, anchors: Array, moved: Array,
     F: Array, nodal: Array, friction: Array, report: Array, cone: Array,
@@ -161,8 +205,7 @@ def contact_force(
 ) -> None:  # fmt: skip
     """Subtract the contact forces of one surface from `F` (n + 1, 12) and add their tangent to the blocks.
 
-    `xs`, `ws` contact points in [0, 1] and weights; `anchors`, `moved`
-    (n, points, 3) committed and candidate anchors
+    `xs`, `ws` contact points in [0, 1] and weights; `anchors`, `moved` (n, points, 3) committed and candidate anchors
     (NaN: none yet); `nodal`, `friction` (n + 1, 3) all contact forces, and their friction
     part, collected at the nodes; `cone` (n, points) is |t| / (mu f_n). `report` receives penalty energy, bristle energy,
     power lost in normal damping, power of friction, power of the moving surface, deepest penetration, its element.
@@ -170,25 +213,18 @@ def contact_force(
     N = np.empty(4)
     x, u, n, normal, shear = np.empty(3), np.empty(3), np.empty(3), np.empty(3), np.empty(3)
     K = np.zeros((3, 3))
-    for k in range(5):
-        report[k] = 0.0
-    report[5], report[6] = -1.0, -1.0
+    report[:] = 0.0
+    cone[:] = 0.0
     for e in range(lengths.size):
         if out_of_reach(p, q, e, lengths[e]):
-            for g in range(xs.size):
-                cone[e, g] = 0.0
-                moved[e, g, 0] = np.nan
+            moved[e] = np.nan
             continue
         for g in range(xs.size):
             hermite_values(xs[g], lengths[e], N)
-            n0, n1, n2, n3 = N[0], N[1], N[2], N[3]
-            for i in range(3):
-                x[i] = n0 * q[e, i] + n1 * q[e, 3 + i] + n2 * q[e + 1, i] + n3 * q[e + 1, 3 + i]
-                u[i] = n0 * v[e, i] + n1 * v[e, 3 + i] + n2 * v[e + 1, i] + n3 * v[e + 1, 3 + i] - p[13 + i]
+            interpolate_point(q, v, e, N, p, x, u)
             gap, pressed, stored, lost, power = point_force(
                 p, x, u, want_tangent, factor, anchors, e, g, n, normal, shear, moved, K
             )
-            cone[e, g] = 0.0
             if gap <= 0.0:
                 continue
             weight = ws[g] * lengths[e]
@@ -196,25 +232,12 @@ def contact_force(
             report[1] += weight * stored
             report[2] += weight * lost
             report[3] += weight * power
-            fn2, ft2 = 0.0, 0.0
             for i in range(3):
-                fn2 += normal[i] * normal[i]
-                ft2 += shear[i] * shear[i]
                 report[4] += weight * (normal[i] + shear[i]) * p[13 + i]
-            if p[3] > 0.0 and fn2 > 0.0:
-                cone[e, g] = np.sqrt(ft2 / fn2) / p[3]
             if gap > report[5]:
                 report[5], report[6] = gap, e
-            for i in range(3):
-                f, t = weight * (normal[i] + shear[i]), weight * shear[i]
-                F[e, i] -= n0 * f
-                F[e, 3 + i] -= n1 * f
-                F[e + 1, i] -= n2 * f
-                F[e + 1, 3 + i] -= n3 * f
-                nodal[e, i] += (1.0 - xs[g]) * f
-                nodal[e + 1, i] += xs[g] * f
-                friction[e, i] += (1.0 - xs[g]) * t
-                friction[e + 1, i] += xs[g] * t
+            cone[e, g] = friction_use(p[3], normal, shear)
+            scatter_force(e, xs[g], weight, N, normal, shear, F, nodal, friction)
             if want_tangent:
                 scatter_contact(K, e, weight, N, D, U, L)
 

@@ -138,9 +138,7 @@ def scatter_tangent(G: Array, e: int, weight: float, N: Array, dN: Array, D: Arr
 
 
 @kernel
-def add_column(
-    blocks: Array, k: int, j: int, n0: float, n1: float, d0: float, d1: float, column: Array
-) -> None:
+def add_column(blocks: Array, k: int, j: int, n0: float, n1: float, d0: float, d1: float, column: Array) -> None:
     """Add to column `j` of block `k` what nine forces at a Gauss point exert on one node."""
     for i in range(3):
         c0, c3, c6 = column[i], column[3 + i], column[6 + i]

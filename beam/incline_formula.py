@@ -17,7 +17,11 @@ STANDARD_GRAVITY = 9.81
 
 
 def towing_force_up(
-    mass: ArrayLike, inclination: float, friction: float, acceleration: ArrayLike = 0.0, gravity: float = STANDARD_GRAVITY
+    mass: ArrayLike,
+    inclination: float,
+    friction: float,
+    acceleration: ArrayLike = 0.0,
+    gravity: float = STANDARD_GRAVITY,
 ) -> NDArray[np.float64]:
     """Formula (22): force [N] to tow `mass` [kg] up a slope of `inclination` [rad].
 
@@ -31,7 +35,11 @@ def towing_force_up(
 
 
 def towing_force_down(
-    mass: ArrayLike, inclination: float, friction: float, acceleration: ArrayLike = 0.0, gravity: float = STANDARD_GRAVITY
+    mass: ArrayLike,
+    inclination: float,
+    friction: float,
+    acceleration: ArrayLike = 0.0,
+    gravity: float = STANDARD_GRAVITY,
 ) -> NDArray[np.float64]:
     """Formula (23): force [N] to tow `mass` [kg] down a slope of `inclination` [rad]; negative if it must be held back."""
     return towing_force_up(mass, -inclination, friction, acceleration, gravity)

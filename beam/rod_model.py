@@ -145,9 +145,7 @@ class RodModel:
             matrix = blocks
             for part in (blocks.D, blocks.U, blocks.L):
                 part[:] = 0.0
-            internal_tangent(
-                q, v, factor, rod.lengths, GAUSS_X, GAUSS_W, *law, blocks.D, blocks.U, blocks.L
-            )
+            internal_tangent(q, v, factor, rod.lengths, GAUSS_X, GAUSS_W, *law, blocks.D, blocks.U, blocks.L)
         report = np.empty(7)
         for surface, (xs, ws), anchor in zip(self.surfaces, self._points, anchors, strict=True):
             p = surface.parameters(t)

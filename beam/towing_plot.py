@@ -11,14 +11,15 @@ import matplotlib
 
 matplotlib.use("Agg", force=False)
 
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib.collections import LineCollection  # noqa: E402
-from matplotlib.figure import Figure  # noqa: E402
-from matplotlib.patches import Circle  # noqa: E402
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
 
-from beam.energy_ledger import ENERGIES  # noqa: E402
-from beam.towing_record import PLATEAU_FROM, PUBLISHED_NODES  # noqa: E402
+from beam.energy_ledger import ENERGIES
+from beam.towing_record import PLATEAU_FROM, PUBLISHED_NODES
 
 if TYPE_CHECKING:
     import xarray
@@ -26,7 +27,12 @@ if TYPE_CHECKING:
     from beam.towing_run import TowingRun
 
 NODE_COLOURS = {54: "#0072B2", 199: "#D55E00", 220: "#009E73", 370: "#8856A7"}
-NODE_PLACES = {54: "near the shearer", 199: "upper end of the bend", 220: "lower end of the bend", 370: "near the supply"}
+NODE_PLACES = {
+    54: "near the shearer",
+    199: "upper end of the bend",
+    220: "lower end of the bend",
+    370: "near the supply",
+}
 PUBLISHED_STYLE: dict[str, Any] = {"color": "#444444", "linestyle": (0, (5, 3)), "linewidth": 1.2}
 
 
@@ -61,7 +67,7 @@ def _draw_cable(
     ax.add_patch(Circle((centre, R), R, facecolor="#eeeeee", edgecolor="#777777", linewidth=1, zorder=1))
     ax.plot([centre], [R], "+", color="#777777")
     segments = np.stack([xy[:-1], xy[1:]], axis=1)
-    lines = LineCollection(list(segments), cmap="viridis", norm=plt.Normalize(*limits), linewidths=3, zorder=3)
+    lines = LineCollection(list(segments), cmap="viridis", norm=Normalize(*limits), linewidths=3, zorder=3)
     lines.set_array(0.5 * (tension[:-1] + tension[1:]))
     ax.add_collection(lines)
     for number in PUBLISHED_NODES:
@@ -133,7 +139,9 @@ def energy_figure(run: TowingRun) -> Figure:
     ax.plot(time, energy[:, -1], label=names[ENERGIES[-1]], color="black", linewidth=1.8)
     ax.plot(time, energy[:, :-1].sum(axis=1), "--", color="#009E73", label="sum of all but the work", linewidth=1.4)
     ax.set(xlabel="time [s]", ylabel="energy since the start [J]")
-    ax.set_title(f"{run.scenario.title}\nenergy balance closed to {abs(run.balance_error):.1e} of the throughput", fontsize=10)
+    ax.set_title(
+        f"{run.scenario.title}\nenergy balance closed to {abs(run.balance_error):.1e} of the throughput", fontsize=10
+    )
     ax.legend(fontsize=8, loc="upper left")
     _finish([ax])
     return figure

@@ -33,7 +33,7 @@ def test_agrees_with_scipy(nodes):
     A = assembled(blocks)
     right = np.random.default_rng(1).normal(size=(nodes, 12))
     solution = Factor(blocks).solve(right)
-    expected = spsolve(A.tocsc(), right.ravel()).reshape(right.shape)
+    expected = np.asarray(spsolve(A.tocsc(), right.ravel())).reshape(right.shape)
     np.testing.assert_allclose(solution, expected, rtol=1e-8, atol=1e-9)  # condition numbers of 1e3 to 1e5
     assert np.abs(A @ solution.ravel() - right.ravel()).max() < 1e-10
 

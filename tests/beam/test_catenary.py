@@ -16,7 +16,7 @@ SECTION = SectionStiffness.uncoupled(EA=1e8, GA_x=1e6, GA_y=1e6, EI_x=0.02, EI_y
 
 def hanging(elements: int):
     """Start from the circular arc of the same length and span."""
-    half = brentq(lambda x: np.sin(x) / x - SPAN / LENGTH, 0.1, 3.0)
+    half = float(np.asarray(brentq(lambda x: np.sin(x) / x - SPAN / LENGTH, 0.1, 3.0)))
     rod = Rod.straight(LENGTH, elements, SECTION, SectionInertia(10.0, 1e-3, 1e-3, 2e-3))
     start = strands_and_arcs(rod.s, [(LENGTH, 2 * half / LENGTH)], angle=-half)
     model = RodModel(rod, start, [Support(0, ("r",)), Support(-1, ("r",))], gravity=(0.0, -9.81, 0.0))
@@ -33,7 +33,7 @@ def solution():
 @pytest.fixture(scope="module")
 def parameter():
     """a from 2 a sinh(span/(2 a)) = length."""
-    return brentq(lambda a: 2 * a * np.sinh(SPAN / (2 * a)) - LENGTH, 0.5, 100.0)
+    return float(np.asarray(brentq(lambda a: 2 * a * np.sinh(SPAN / (2 * a)) - LENGTH, 0.5, 100.0)))
 
 
 def test_sag(solution, parameter):

@@ -18,7 +18,9 @@ SECTION = SectionStiffness.uncoupled(EA=EA, GA_x=2e5, GA_y=2e5, EI_x=124.4, EI_y
 
 
 def cable_on_floor(elements: int, supports, length: float = LENGTH, slope: float = 0.0, bristle_ratio: float = 5.0):
-    rod = Rod.straight(length, elements, SECTION, SectionInertia(10.0, 0.0026, 0.0026, 0.0052), DampingTimes(5e-3, 2e-2))
+    rod = Rod.straight(
+        length, elements, SECTION, SectionInertia(10.0, 0.0026, 0.0026, 0.0052), DampingTimes(5e-3, 2e-2)
+    )
     floor = Plane("floor", ContactLaw(friction=MU, bristle_ratio=bristle_ratio))
     start = straight(rod.s)
     start[:, 1] = -WEIGHT * np.cos(slope) / 1.25e6

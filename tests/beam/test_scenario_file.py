@@ -87,7 +87,7 @@ def test_fault_becomes_a_sentence(tmp_path, old, new, expected):
     """Each fault names the file and the key, and says what to do."""
     text = source_text()
     assert old in text
-    with pytest.raises(SpecError, match="mine.toml") as caught:
+    with pytest.raises(SpecError, match=r"mine\.toml") as caught:
         read_scenario(written(tmp_path, text.replace(old, new, 1)))
     assert expected in str(caught.value)
 

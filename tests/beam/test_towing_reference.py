@@ -79,5 +79,7 @@ def test_total_force_balance(runs):
     """Supports + contacts + weight = mass times acceleration of the cable, to the solver's tolerance of 1e-2 N."""
     for _, motion in runs.values():
         model = motion.model
-        total = motion.reaction[:, 0:3].sum(axis=0) + motion.forces.contact.sum(axis=0) + model.weight[:, 0:3].sum(axis=0)
+        total = (
+            motion.reaction[:, 0:3].sum(axis=0) + motion.forces.contact.sum(axis=0) + model.weight[:, 0:3].sum(axis=0)
+        )
         np.testing.assert_allclose(total, model.inertia(motion.a)[:, 0:3].sum(axis=0), rtol=0, atol=0.1)
