@@ -7,7 +7,13 @@ from typing import NamedTuple
 
 from geometry.cable import Cable, MarkedNumber
 
-UNITS = {"m": (1e3, "mm"), "Pa": (1e-6, "MPa"), "kg/m^3": (1.0, "kg/m^3"), "rad": (180 / math.pi, "deg"), "1": (1.0, "")}
+UNITS = {
+    "m": (1e3, "mm"),
+    "Pa": (1e-6, "MPa"),
+    "kg/m^3": (1.0, "kg/m^3"),
+    "rad": (180 / math.pi, "deg"),
+    "1": (1.0, ""),
+}
 
 
 class Row(NamedTuple):
@@ -39,7 +45,9 @@ def _whole(cable: Cable) -> list[Row]:
         _computed("cable", "outer diameter", cable.outer_diameter, "m", "laid-up diameter + 2 (wrap + sheath)"),
         _computed("cable", "section area", cable.area, "m^2", "pi D^2 / 4"),
         _computed("cable", "mass per length", cable.mass_per_length, "kg/m", "sum of density x area, lays included"),
-        _computed("cable", "mean density", cable.mass_per_length / cable.area, "kg/m^3", "mass per length / section area"),
+        _computed(
+            "cable", "mean density", cable.mass_per_length / cable.area, "kg/m^3", "mass per length / section area"
+        ),
         _computed("cable", "rotary inertia J_x", J.J_x, "kg m", "sum of density x integral of y^2"),
         _computed("cable", "rotary inertia J_y", J.J_y, "kg m", "sum of density x integral of x^2"),
         _computed("cable", "rotary inertia J_z", J.J_z, "kg m", "J_x + J_y"),
@@ -48,7 +56,9 @@ def _whole(cable: Cable) -> list[Row]:
 
 def _lay(cable: Cable) -> list[Row]:
     rows = [
-        _computed("lay-up", "pitch circle radius", cable.pitch_circle_radius, "m", "cores rest on the centre or on each other"),
+        _computed(
+            "lay-up", "pitch circle radius", cable.pitch_circle_radius, "m", "cores rest on the centre or on each other"
+        ),
         _computed("lay-up", "laid-up diameter", 2 * cable.laid_up_radius, "m", "2 (pitch circle radius + core radius)"),
     ]
     if cable.lay is not None:
@@ -70,17 +80,31 @@ def _conductors(cable: Cable) -> list[Row]:
                 _computed(group, "strand diameter", strand.diameter, "m", "concentric layers of round wires"),
                 _computed(group, "strand fill", strand.fill, "1", "wires d^2 / D^2"),
                 _computed(group, "strand density", strand.density, "kg/m^3", "fill x density of the wire"),
-                _computed(group, "strand lay factor", strand.lay_factor, "1", f"from the lay alone {strand.computed_lay_factor:.4f}"),
+                _computed(
+                    group,
+                    "strand lay factor",
+                    strand.lay_factor,
+                    "1",
+                    f"from the lay alone {strand.computed_lay_factor:.4f}",
+                ),
             ]
         rows += [
             _computed(group, "diameter", conductor.diameter, "m", "over the strands or wires"),
             _computed(group, "metal area", conductor.metal_area, "m^2", "normal sections of the wires"),
             _computed(group, "fill", conductor.fill, "1", "metal area / cylinder area"),
-            _computed(group, "density with lay", conductor.density, "kg/m^3", "fill x density of the wire x lay factor"),
-            _computed(group, "E as a cylinder", conductor.E, "Pa", "E_strand A_strand (sum of cos^3 lay angle) / A_cylinder"),
+            _computed(
+                group, "density with lay", conductor.density, "kg/m^3", "fill x density of the wire x lay factor"
+            ),
+            _computed(
+                group, "E as a cylinder", conductor.E, "Pa", "E_strand A_strand (sum of cos^3 lay angle) / A_cylinder"
+            ),
         ]
         if conductor.lay is not None:
-            rows.append(_computed(group, "lay angle of the outer strands", conductor.strand_lay_angle, "rad", "atan(2 pi r / lay)"))
+            rows.append(
+                _computed(
+                    group, "lay angle of the outer strands", conductor.strand_lay_angle, "rad", "atan(2 pi r / lay)"
+                )
+            )
     return rows
 
 
@@ -88,7 +112,10 @@ def _masses(cable: Cable) -> list[Row]:
     total: dict[str, float] = {}
     for part in cable.parts:
         total[part.kind] = total.get(part.kind, 0.0) + part.mass_per_length
-    return [_computed("mass per length", kind, mass, "kg/m", f"{100 * mass / cable.mass_per_length:.1f} %") for kind, mass in total.items()]
+    return [
+        _computed("mass per length", kind, mass, "kg/m", f"{100 * mass / cable.mass_per_length:.1f} %")
+        for kind, mass in total.items()
+    ]
 
 
 def _computed(group: str, name: str, value: float, unit: str, source: str) -> Row:
@@ -96,7 +123,7 @@ def _computed(group: str, name: str, value: float, unit: str, source: str) -> Ro
     factor, shown_unit = UNITS.get(unit, (1.0, unit))
     if unit == "m^2":
         factor, shown_unit = 1e6, "mm^2"
-    return Row(group, name, value, f"{factor * value:.4g}", shown_unit, "computed", source)
+    return Row(group, name, value, f"{factor * value:.5g}", shown_unit, "computed", source)
 
 
 def _marked(number: MarkedNumber) -> Row:

@@ -19,13 +19,19 @@ from geometry.helix import Helix
 from geometry.nested_helix import CentreLine, nested_helix, wound_on
 from geometry.quiet_output import quiet_output
 from geometry.strand import Conductor, layer_radii
-from geometry.wire_trace import WireTrace
+from geometry.swept_surface import SIDES, WIRE_SIDES, swept_surface, wire_surfaces
 
-ENDS = {"sheath": 0.30, "wrap": 0.40, "interstices": 0.52, "screen": 0.66, "cover": 0.70, "insulation": 0.82, "conductor": 1.0}
+ENDS = {
+    "sheath": 0.30,
+    "wrap": 0.40,
+    "interstices": 0.52,
+    "screen": 0.66,
+    "cover": 0.70,
+    "insulation": 0.82,
+    "conductor": 1.0,
+}
 """Where each kind of part ends, as a share of the length shown."""
 GLOSS = {"conductor": (0.7, 25), "wrap": (0.35, 15), "screen": (0.45, 20), "sheath": (0.25, 12)}
-SIDES = 96
-WIRE_SIDES = 8
 INK = "#22262b"
 
 
@@ -96,21 +102,6 @@ class _View:
         return np.array([0.5 * self.size[0] + across[0], 0.55 * self.size[1] - across[1]])
 
 
-def swept_surface(trace: WireTrace, start: float, end: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Surface of a tube between z = start and z = end: points (n, 3) [m] and quadrilaterals (m, 4)."""
-    turns = abs(trace.twist_rate) * (end - start) / (2 * np.pi)
-    stations = np.linspace(start, end, max(2, int(np.ceil(90 * turns)) + 1))
-    ring = trace.point(np.linspace(0, 2 * np.pi, SIDES, endpoint=False))
-    angle = trace.twist_rate * stations[:, None]
-    x = np.cos(angle) * ring[:, 0] - np.sin(angle) * ring[:, 1]
-    y = np.sin(angle) * ring[:, 0] + np.cos(angle) * ring[:, 1]
-    points = np.stack([x, y, np.broadcast_to(stations[:, None], x.shape)], axis=-1).reshape(-1, 3)
-    first = SIDES * np.arange(len(stations) - 1)[:, None] + np.arange(SIDES)
-    following = SIDES * np.arange(len(stations) - 1)[:, None] + (np.arange(SIDES) + 1) % SIDES
-    quads = np.stack([first, following, following + SIDES, first + SIDES], axis=-1).reshape(-1, 4)
-    return points, quads
-
-
 def _rendered(cable: Cable, length: float, wires: bool, view: _View) -> NDArray[np.uint8]:
     try:
         import pyvista
@@ -119,14 +110,16 @@ def _rendered(cable: Cable, length: float, wires: bool, view: _View) -> NDArray[
             f"pyvista cannot be loaded ({error}); on Debian or Ubuntu: apt-get install libgl1 libegl1, "
             "or pip install --force-reinstall pyvista."
         ) from None
-    plotter = pyvista.Plotter(off_screen=True, window_size=list(view.size), lighting="none")
+    plotter: Any = pyvista.Plotter(off_screen=True, window_size=list(view.size), lighting="none")
     plotter.set_background("white")
     plotter.enable_anti_aliasing("ssaa")
     for part in cable.parts:
         _add_part(pyvista, plotter, cable, part, length, wires)
     right, up, back = view.axes
     for direction, strength in ((back + 0.9 * up - 0.5 * right, 0.72), (back + 0.8 * right, 0.40), (back - up, 0.22)):
-        light = pyvista.Light(position=tuple(view.focus + length * direction), focal_point=tuple(view.focus), intensity=strength)
+        light = pyvista.Light(
+            position=tuple(view.focus + length * direction), focal_point=tuple(view.focus), intensity=strength
+        )
         light.positional = False
         plotter.add_light(light)
     plotter.camera.parallel_projection = True
@@ -155,7 +148,9 @@ def _annotated(image: NDArray[np.uint8], cable: Cable, length: float, view: _Vie
     axes.set(xlim=(0, width), ylim=(height, 0))
     axes.axis("off")
     halo = [withStroke(linewidth=2.4, foreground="white")]
-    spots = sorted(((view.pixel(point), point, text) for text, point in _named_spots(cable, length)), key=lambda spot: spot[0][0])
+    spots = sorted(
+        ((view.pixel(point), point, text) for text, point in _named_spots(cable, length)), key=lambda spot: spot[0][0]
+    )
     for k, (spot, point, text) in enumerate(spots):
         above = k % 2 == 0
         beside = np.array([0.0, 0.0, point[2]]) + (1.5 if above else -1.5) * cable.outer_radius * view.axes[1]
@@ -163,16 +158,21 @@ def _annotated(image: NDArray[np.uint8], cable: Cable, length: float, view: _Vie
         axes.plot([spot[0], spot[0]], [spot[1], row], color=INK, linewidth=0.9, path_effects=halo, zorder=3)
         axes.plot(*spot, marker="o", markersize=4.5, color="white", markeredgecolor=INK, zorder=4)
         side = "bottom" if above else "top"
-        axes.text(spot[0], row + (-6 if above else 6), text, ha="center", va=side, fontsize=11, color=INK, path_effects=halo)
+        axes.text(
+            spot[0], row + (-6 if above else 6), text, ha="center", va=side, fontsize=11, color=INK, path_effects=halo
+        )
     axes.text(0.02 * width, 0.055 * height, cable.title, fontsize=14, fontweight="bold", color=INK, va="center")
     lay = "straight" if cable.lay is None else f"lay {1e3 * cable.lay:.4g} mm ({cable.hand})"
-    facts = f"\u2300 {1e3 * cable.outer_diameter:.1f} mm \u00b7 {lay} \u00b7 {cable.mass_per_length:.2f} kg/m \u00b7 length shown {1e3 * length:.0f} mm"
+    facts = f"\u2300 {1e3 * cable.outer_diameter:.1f} mm \u00b7 {lay} \u00b7 {cable.mass_per_length:.2f} kg/m"
+    facts += f" \u00b7 length shown {1e3 * length:.0f} mm"
     axes.text(0.02 * width, 0.105 * height, facts, fontsize=11, color="#6b7178", va="center")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(path, dpi=150)
     except (OSError, ValueError) as error:
-        raise GeometryError(f'the picture cannot be written to "{path}": {error}; try a name that ends in .png.') from None
+        raise GeometryError(
+            f'the picture cannot be written to "{path}": {error}; try a name that ends in .png.'
+        ) from None
     return path
 
 
@@ -186,7 +186,11 @@ def _named_spots(cable: Cable, length: float) -> list[tuple[str, NDArray[np.floa
         begin = max([e for e in ends if e < end and _hides(cable, kind, e)], default=0.0)
         z = 0.5 * (begin + end) * length
         best = None
-        for part in (p for p in cable.parts if p.kind == kind and (p.centre_radius > 0 or len(cable.parts) < 6 or p.kind != "conductor")):
+        for part in (
+            p
+            for p in cable.parts
+            if p.kind == kind and (p.centre_radius > 0 or len(cable.parts) < 6 or p.kind != "conductor")
+        ):
             turn = part.phase + part.twist_rate * z
             radius = cable.laid_up_radius if kind == "interstices" else part.outer_radius
             centre = np.array([part.centre_radius * np.cos(turn), part.centre_radius * np.sin(turn), z])
@@ -204,7 +208,9 @@ def _hides(cable: Cable, kind: str, end: float) -> bool:
 
 def _add_part(pyvista: Any, plotter: Any, cable: Cable, part: Part, length: float, wires: bool) -> None:
     end = ENDS.get(part.kind, 0.8) * length
-    outside = [ENDS.get(p.kind, 0.8) for p in cable.parts if p.member == part.member and p.outer_radius > part.outer_radius]
+    outside = [
+        ENDS.get(p.kind, 0.8) for p in cable.parts if p.member == part.member and p.outer_radius > part.outer_radius
+    ]
     if part.member not in ("wrap", "sheath", "interstices"):
         outside += [ENDS[p.kind] for p in cable.parts if p.kind == "interstices"]
     hidden = 0.04 if part.kind == "conductor" else 0.001
@@ -230,7 +236,9 @@ def _cap(pyvista: Any, part: Part, cable: Cable, z: float) -> Any:
     turn = part.twist_rate * z
     phi = np.linspace(0, 2 * np.pi, SIDES, endpoint=False)
     outer = part.outer_trace.point(phi)
-    inner = np.zeros_like(outer) if part.inner_trace is None or part.kind == "interstices" else part.inner_trace.point(phi)
+    inner = (
+        np.zeros_like(outer) if part.inner_trace is None or part.kind == "interstices" else part.inner_trace.point(phi)
+    )
     if part.inner_trace is None and part.centre_radius > 0:
         inner = np.broadcast_to(part.centre_radius * np.array([np.cos(part.phase), np.sin(part.phase)]), outer.shape)
     both = np.vstack([outer, inner])
@@ -252,14 +260,16 @@ def _add_wires(
     stations = np.linspace(start, end, max(24, int(72 * (end - start) / finest)))
     core = Helix(part.centre_radius, cable.lay or straight, cable.hand, part.phase)
     lines: list[CentreLine] = []
-    for count, radius in zip(conductor.layers, layer_radii(conductor.layers, strand.diameter, conductor.name), strict=True):
+    for count, radius in zip(
+        conductor.layers, layer_radii(conductor.layers, strand.diameter, conductor.name), strict=True
+    ):
         for k in range(count):
             rope = Helix(radius, conductor.lay or straight, conductor.hand, 2 * np.pi * k / count)
             axis = nested_helix([core, rope], stations)
             for n, wire_radius in zip(strand.layers, strand.radii, strict=True):
                 wound = [Helix(wire_radius, strand.lay or straight, strand.hand, 2 * np.pi * j / n) for j in range(n)]
                 lines += [wound_on(axis, wire, transport=False) for wire in wound]
-    points, normals, quads = _tubes(lines, strand.wire_diameter / 2)
+    points, normals, quads = wire_surfaces(lines, strand.wire_diameter / 2)
     mesh = pyvista.PolyData.from_regular_faces(points, quads)
     mesh.point_data["Normals"] = normals
     mesh.point_data.active_normals_name = "Normals"
@@ -267,16 +277,3 @@ def _add_wires(
     rims = points.reshape(len(lines), len(stations), WIRE_SIDES, 3)[:, -1].reshape(-1, 3)
     fans = np.arange(len(rims)).reshape(len(lines), WIRE_SIDES)
     plotter.add_mesh(pyvista.PolyData.from_regular_faces(rims, fans), **_style("conductor"))
-
-
-def _tubes(lines: list[CentreLine], radius: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
-    """Points, normals and quadrilaterals of round tubes along centre lines with the same number of samples."""
-    angle = 2 * np.pi * np.arange(WIRE_SIDES) / WIRE_SIDES
-    frames = np.stack([line.frames for line in lines])[:, :, None]
-    normals = np.cos(angle)[:, None] * frames[..., 1, :] + np.sin(angle)[:, None] * frames[..., 2, :]
-    points = np.stack([line.points for line in lines])[:, :, None] + radius * normals
-    rows = points.shape[1]
-    number = np.arange(points.shape[0] * rows * WIRE_SIDES).reshape(len(lines), rows, WIRE_SIDES)
-    following = np.roll(number, -1, axis=2)
-    quads = np.stack([number[:, :-1], following[:, :-1], following[:, 1:], number[:, 1:]], axis=-1)
-    return points.reshape(-1, 3), normals.reshape(-1, 3), quads.reshape(-1, 4)

@@ -1,19 +1,20 @@
 """Write a mesh to a file: VTU for ParaView, MSH for gmsh and finite-element codes. The one door to meshio.
 
 VTU: cell data "region" (number, from 0, in the order of ``mesh.regions``), and for every region one array of
-its name that is 1 inside and 0 outside. MSH (4.1): one named physical group per region, numbered from 1.
+its name that is 1 inside and 0 outside. MSH (format 2.2, which every reader knows): one named physical group per region, numbered from 1.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from geometry.cell_mesh import CrossSectionMesh, SliceMesh
 from geometry.errors import MeshError
 
-FORMATS = {".vtu": "vtu", ".msh": "gmsh"}
+FORMATS = {".vtu": "vtu", ".msh": "gmsh22"}
 
 
 def write_mesh(mesh: CrossSectionMesh | SliceMesh, path: str | Path) -> Path:
@@ -26,12 +27,15 @@ def write_mesh(mesh: CrossSectionMesh | SliceMesh, path: str | Path) -> Path:
     """
     path = Path(path)
     if path.suffix.lower() not in FORMATS:
-        raise MeshError(f'a mesh cannot be written to "{path.name}": choose a name that ends in {" or ".join(FORMATS)}.')
+        raise MeshError(
+            f'a mesh cannot be written to "{path.name}": choose a name that ends in {" or ".join(FORMATS)}.'
+        )
     import meshio
 
     points = mesh.points if mesh.points.shape[1] == 3 else np.column_stack([mesh.points, np.zeros(len(mesh.points))])
     region = mesh.region_of.astype(np.int32)
     dim = mesh.points.shape[1]
+    data: dict[str, list[Any]]
     if FORMATS[path.suffix.lower()] == "vtu":
         data = {"region": [region]}
         data |= {r.name: [(region == k).astype(np.uint8)] for k, r in enumerate(mesh.regions)}

@@ -63,7 +63,9 @@ def element_sizes(mesh: CrossSectionMesh | SliceMesh) -> NDArray[np.float64]:
 
 def region_sizes(mesh: CrossSectionMesh | SliceMesh) -> NDArray[np.float64]:
     """Area [m^2] or volume [m^3] of every region, in the order of ``mesh.regions``."""
-    return np.bincount(mesh.region_of, weights=element_sizes(mesh), minlength=len(mesh.regions))
+    sizes = np.zeros(len(mesh.regions))
+    np.add.at(sizes, mesh.region_of, element_sizes(mesh))
+    return sizes
 
 
 def _reference(kind: str) -> tuple[list[NDArray[np.float64]], list[float]]:
@@ -102,7 +104,7 @@ def _triangle6(r: float, s: float) -> NDArray[np.float64]:
 
 
 def _wedge(r: float, s: float, z: float) -> NDArray[np.float64]:
-    shape, slope = np.array([1 - r - s, r, s]), _triangle(r, s)
+    shape, slope = np.array([1 - r - s, r, s], dtype=float), _triangle(r, s)
     low, high = (1 - z) / 2, (1 + z) / 2
     return np.vstack([np.column_stack([low * slope, -shape / 2]), np.column_stack([high * slope, shape / 2])])
 

@@ -16,12 +16,12 @@ order in the step: Wang et al., ACM Trans. Graphics 27 (2008) 2, doi 10.1145/133
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicSpline
 
 from geometry.errors import GeometryError
 from geometry.helix import Helix
@@ -70,7 +70,9 @@ def nested_helix(levels: Sequence[Helix], z: ArrayLike) -> CentreLine:
         raise GeometryError("the heights of a nested helix must be a list of at least two increasing numbers.")
     fine = _refined(levels, heights)
     helix = levels[0]
-    line = CentreLine(fine, helix.position(fine), helix.transported_frame(fine), (fine - fine[0]) / np.cos(helix.lay_angle))
+    line = CentreLine(
+        fine, helix.position(fine), helix.transported_frame(fine), (fine - fine[0]) / np.cos(helix.lay_angle)
+    )
     for level in levels[1:]:
         line = wound_on(line, level)
     rows = np.searchsorted(fine, heights)
@@ -80,9 +82,7 @@ def nested_helix(levels: Sequence[Helix], z: ArrayLike) -> CentreLine:
 def _refined(levels: Sequence[Helix], heights: NDArray[np.float64]) -> NDArray[np.float64]:
     """Heights with enough steps between them for the shortest pitch; contains every given height exactly."""
     step = min(level.pitch for level in levels) / SAMPLES_PER_TURN
-    pieces = [
-        np.linspace(a, b, max(2, int(np.ceil((b - a) / step)) + 1))[:-1] for a, b in zip(heights[:-1], heights[1:], strict=True)
-    ]
+    pieces = [np.linspace(a, b, max(2, int(np.ceil((b - a) / step)) + 1))[:-1] for a, b in itertools.pairwise(heights)]
     return np.concatenate([*pieces, heights[-1:]])
 
 
@@ -103,6 +103,8 @@ def wound_on(line: CentreLine, level: Helix, transport: bool = True) -> CentreLi
     GeometryError
         If the line bends more sharply than the member can follow.
     """
+    from scipy.interpolate import CubicSpline  # slow to load, needed here only
+
     t, e1, e2 = np.moveaxis(line.frames, 1, 0)
     rate = level.sign * 2 * np.pi / level.pitch
     psi = (rate * line.s + level.phase)[:, None]

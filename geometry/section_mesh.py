@@ -9,6 +9,7 @@ thin layers, five gap widths in necks. These factors shrink with `size`, so that
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -28,7 +29,7 @@ DEFAULT_SIZE = 1 / 26
 LARGEST = 2e7
 GOOD_ENOUGH = 0.15
 """Smallest scaled Jacobian at which no other recipe is tried."""
-QUAD_RECIPES: list[dict[str, float]] = [
+QUAD_RECIPES: list[Mapping[str, float]] = [
     {"Algorithm": 5, "RecombinationAlgorithm": 0},
     {"Algorithm": 6, "RecombinationAlgorithm": 1, "RecombineMinimumQuality": 0.3},
     {"Algorithm": 8, "RecombinationAlgorithm": 1, "RecombineMinimumQuality": 0.5},
@@ -81,7 +82,9 @@ def cross_section_mesh(cable: Cable, size: float | None = None, kind: str = "tri
     return best
 
 
-def _meshed(cable: Cable, outline: SectionOutline, size: float, kind: str, recipe: dict[str, float]) -> CrossSectionMesh:
+def _meshed(
+    cable: Cable, outline: SectionOutline, size: float, kind: str, recipe: Mapping[str, float]
+) -> CrossSectionMesh:
     """One run of gmsh; `recipe` holds the Mesh options that differ between runs."""
     options = {
         "MeshSizeExtendFromBoundary": 1,
@@ -89,6 +92,7 @@ def _meshed(cable: Cable, outline: SectionOutline, size: float, kind: str, recip
         "MeshSizeFromCurvature": 0,
         "MeshSizeMax": size,
         "MeshSizeMin": 0,
+        "LcIntegrationPrecision": 1e-3,  # of the node spacing along curves; the default of 1e-9 takes most of the time
         "RecombineAll": int(kind.startswith("quad")),
         "RecombineMinimumQuality": 0.01,
         "RecombinationAlgorithm": 0,
@@ -99,7 +103,7 @@ def _meshed(cable: Cable, outline: SectionOutline, size: float, kind: str, recip
     with gmsh_session(cable.name) as gmsh:
         curve_tags, surfaces = _build(gmsh, outline)
         _set_sizes(gmsh, cable, outline, curve_tags, size)
-        for option, value in (options | recipe).items():
+        for option, value in (options | dict(recipe)).items():
             gmsh.option.setNumber(f"Mesh.{option}", value)
         gmsh.model.mesh.generate(2)
         if KINDS[kind] == 2:

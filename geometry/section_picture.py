@@ -70,7 +70,12 @@ def draw_mesh(section: CrossSectionMesh, path: str | Path, title: str = "", dpi:
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    corners = {"triangle": [0, 1, 2], "triangle6": [0, 3, 1, 4, 2, 5], "quad": [0, 1, 2, 3], "quad9": [0, 4, 1, 5, 2, 6, 3, 7]}
+    corners = {
+        "triangle": [0, 1, 2],
+        "triangle6": [0, 3, 1, 4, 2, 5],
+        "quad": [0, 1, 2, 3],
+        "quad9": [0, 4, 1, 5, 2, 6, 3, 7],
+    }
     polygons = 1e3 * section.points[section.cells[:, corners[section.cell_kind]]]
     kinds = [section.regions[r].kind for r in section.region_of]
     figure = Figure(figsize=(9.0, 8.2), facecolor="white")
@@ -172,7 +177,9 @@ def _anchor(part: Part, cable: Cable) -> NDArray[np.float64]:
         direction = np.array([np.cos(part.phase), np.sin(part.phase)])
         sideways = np.array([1.0 if direction[0] > -0.5 else -1.0, 0.25])
         return 1e3 * (part.centre_radius * direction + middle * sideways / np.linalg.norm(sideways))
-    angle = {"sheath": -0.55, "wrap": np.pi + 0.62, "interstices": np.pi - 0.72, "cover": np.pi + 0.78}.get(part.kind, 2.6)
+    angle = {"sheath": -0.55, "wrap": np.pi + 0.62, "interstices": np.pi - 0.72, "cover": np.pi + 0.78}.get(
+        part.kind, 2.6
+    )
     if part.kind == "interstices":
         middle = 0.86 * cable.laid_up_radius
     return 1e3 * middle * np.array([np.cos(angle), np.sin(angle)])
@@ -196,7 +203,9 @@ def _block(axes: Any, layers: list[Part], anchor: NDArray[np.float64], side: int
         if kind is None:
             axes.text(column, row, name, va="center", fontsize=9.5, fontweight="bold", color=INK)
             continue
-        box = Rectangle((column, row - 0.026 * R), 0.06 * R, 0.052 * R, facecolor=kind_colour(kind), edgecolor=INK, linewidth=0.5)
+        box = Rectangle(
+            (column, row - 0.026 * R), 0.06 * R, 0.052 * R, facecolor=kind_colour(kind), edgecolor=INK, linewidth=0.5
+        )
         axes.add_patch(box)
         weight = "normal" if titled else "bold"
         axes.text(column + 0.09 * R, row, name, va="center", fontsize=8.8, fontweight=weight, color=INK)
@@ -215,8 +224,22 @@ def _dimension(axes: Any, R: float) -> None:
     y = -1.17 * R
     for x in (-R, R):
         axes.plot([x, x], [-0.12 * R, y - 0.05 * R], color=SOFT, linewidth=0.5, zorder=0)
-    axes.annotate("", (-R, y), (R, y), arrowprops={"arrowstyle": "<|-|>", "color": INK, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0})
-    axes.text(0, y, f"\u2300 {2 * R:.1f} mm", ha="center", va="center", fontsize=10, color=INK, bbox={"facecolor": "white", "edgecolor": "none"})
+    axes.annotate(
+        "",
+        (-R, y),
+        (R, y),
+        arrowprops={"arrowstyle": "<|-|>", "color": INK, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0},
+    )
+    axes.text(
+        0,
+        y,
+        f"\u2300 {2 * R:.1f} mm",
+        ha="center",
+        va="center",
+        fontsize=10,
+        color=INK,
+        bbox={"facecolor": "white", "edgecolor": "none"},
+    )
     start, bottom = 1.33 * R, y - 0.07 * R
     bar = max(b for k in range(-3, 4) for b in (10.0**k, 2 * 10.0**k, 5 * 10.0**k) if b <= 0.5 * R)
     axes.plot([start, start + bar], [bottom, bottom], color=INK, linewidth=2.2, solid_capstyle="butt")
@@ -229,11 +252,25 @@ def _dimension(axes: Any, R: float) -> None:
 
 
 def _headline(figure: Any, cable: Cable) -> None:
-    lay = "straight" if cable.lay is None else (
-        f"lay {1e3 * cable.lay:.4g} mm ({cable.hand}), lay ratio {cable.lay_ratio:.1f}, lay angle {np.degrees(cable.lay_angle):.1f}\u00b0"
+    lay = (
+        "straight"
+        if cable.lay is None
+        else (
+            f"lay {1e3 * cable.lay:.4g} mm ({cable.hand}), lay ratio {cable.lay_ratio:.1f}, "
+            f"lay angle {np.degrees(cable.lay_angle):.1f}\u00b0"
+        )
     )
-    figure.text(0.03, 0.945, "\n".join(textwrap.wrap(cable.title, 95)), fontsize=12.5, fontweight="bold", color=INK, va="center")
-    figure.text(0.03, 0.895, f"section z = 0 \u00b7 {lay} \u00b7 {cable.mass_per_length:.2f} kg/m", fontsize=10, color=SOFT, va="center")
+    figure.text(
+        0.03, 0.945, "\n".join(textwrap.wrap(cable.title, 95)), fontsize=12.5, fontweight="bold", color=INK, va="center"
+    )
+    figure.text(
+        0.03,
+        0.895,
+        f"section z = 0 \u00b7 {lay} \u00b7 {cable.mass_per_length:.2f} kg/m",
+        fontsize=10,
+        color=SOFT,
+        va="center",
+    )
     note = "Diameters are normal to each part's own centre line; in the section, cores laid at an angle appear wider along their tangent."
     if any(c.strand for c in cable.conductors.values()):
         note += "\nThin circles mark the strands, which the model takes as one cylinder."
@@ -246,5 +283,7 @@ def _saved(figure: Any, path: str | Path, dpi: int) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(path, dpi=dpi)
     except (OSError, ValueError) as error:
-        raise GeometryError(f'the picture cannot be written to "{path}": {error}; try a name that ends in .png.') from None
+        raise GeometryError(
+            f'the picture cannot be written to "{path}": {error}; try a name that ends in .png.'
+        ) from None
     return path

@@ -44,7 +44,9 @@ def write_solids(cable: Cable, path: str | Path, length: float, kinds: tuple[str
     """
     path = Path(path)
     if path.suffix.lower() not in FORMATS:
-        raise GeometryError(f'solids cannot be written to "{path.name}": choose a name that ends in {", ".join(FORMATS)}.')
+        raise GeometryError(
+            f'solids cannot be written to "{path.name}": choose a name that ends in {", ".join(FORMATS)}.'
+        )
     if not (np.isfinite(length) and length > 0):
         raise GeometryError(f"the length of the solids must be positive, found {length:g} m.")
     parts = [part for part in cable.parts if part.kind in kinds and part.kind != "interstices"]
@@ -82,7 +84,7 @@ def _pipe(gmsh: Any, cable: Cable, part: Part, length: float) -> int:
         return occ.cut([(3, body)], [(3, occ.addCylinder(x, y, 0, 0, 0, length, inner))])[0][0][1]
     helix = Helix(r, 1e3 * cable.lay, cable.hand, part.phase)
     z = np.linspace(0, length, max(8, int(np.ceil(POINTS_PER_TURN * length / helix.pitch)) + 1))
-    start, tangent, normal, binormal = helix.position(0.0), *helix.frenet_frame(0.0)
+    start, (tangent, normal, _) = helix.position(0.0), helix.frenet_frame(0.0)
     spline = occ.addSpline(
         [occ.addPoint(*xyz) for xyz in helix.position(z)],
         tangents=[*helix.tangent(0.0), *helix.tangent(length)],
