@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import io
+import warnings
 from collections.abc import Mapping
 
 import numpy as np
@@ -135,17 +136,19 @@ def _numbers(body: str, cells: list[str], file: str) -> NDArray[np.float64]:
     if not body:
         raise SpecError(f"{file}: there is a header but no row of numbers.")
     try:
-        frame = pandas.read_csv(
-            io.StringIO(body),
-            header=None,
-            names=list(range(len(cells))),
-            index_col=False,
-            dtype=np.float64,
-            na_filter=False,
-            skip_blank_lines=False,
-            quoting=csv.QUOTE_NONE,
-            float_precision="round_trip",
-        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", pandas.errors.ParserWarning)  # rows longer than the header
+            frame = pandas.read_csv(
+                io.StringIO(body),
+                header=None,
+                names=list(range(len(cells))),
+                index_col=False,
+                dtype=np.float64,
+                na_filter=False,
+                skip_blank_lines=False,
+                quoting=csv.QUOTE_NONE,
+                float_precision="round_trip",
+            )
         values = frame.to_numpy()
         failure = ""
     except (ValueError, OverflowError, pandas.errors.ParserWarning) as error:  # ParserError is a ValueError

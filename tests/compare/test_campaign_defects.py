@@ -147,6 +147,7 @@ DEFECTS = {
     "stiffness overflows": ({"campaign.toml": TOML.replace("95 N", "1e150 N")}, ["[section] EI", "beyond"]),
     "short row": ({"a.csv": LOOP + "12,0.2\n"}, ["a.csv, row 14", "2 cell(s)", "3 columns"]),
     "long row": ({"a.csv": LOOP + "12,0.2,1,\n"}, ["a.csv, row 14", "4 cell(s)", "3 columns"]),
+    "every row too long": ({"a.csv": CURVE + "0,0,0,5\n1,0.1,9,5\n2,0.2,19,5\n"}, ["a.csv, row 2", "4 cell(s)"]),
     "long and short row": ({"a.csv": LOOP + "12,0.2,1,5\n13,0.2\n"}, ["a.csv, row 14", "4 cell(s)"]),
     "blank row in a table": ({"a.csv": LOOP + "\n12,0.2,1\n"}, ["a.csv, row 14", "blank"]),
     "decimal commas": ({"a.csv": LOOP.replace(",", ";")}, ["a.csv, row 1"]),

@@ -62,6 +62,16 @@ def test_other_sampling_and_length_do_not_shrink_the_noise(campaign_of, clocks):
     assert noise.s == pytest.approx(1.0, rel=3 / np.sqrt(2 * 1600) + 0.02)
 
 
+def test_difference_of_the_path_between_nearest_samples_is_no_noise(campaign_of):
+    """Half a step of the path times the stiffness is ten times the noise here; what a stiffness explains is taken out."""
+    rng = np.random.default_rng(5)
+    sampled = [np.linspace(0, 60, 400), np.linspace(0, 60, 463)]
+    records = [(t, path(t), 950 * path(t) + rng.normal(size=t.size)) for t in sampled]
+    noise = noise_of(campaign_with(campaign_of, records))
+    assert not noise.assumed
+    assert noise.s == pytest.approx(1.0, rel=3 / np.sqrt(2 * 400))
+
+
 def test_another_path_is_no_repeat(campaign_of):
     rng = np.random.default_rng(2)
     records = [(T, f * path(T), moment(T) + rng.normal(size=T.size)) for f in (1.0, 1.5)]
