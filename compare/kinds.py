@@ -11,7 +11,7 @@ towing        position [m] or speed [m/s]                tension [N]            
 ============  =========================================  =====================  ==================================
 
 The path is prescribed and the load measured, unless the column ``control`` names the load: then it is the other way
-round. L is the specimen length. Source: the campaign contract of helicable (docs/campaign), after the usual bench
+round. L is the specimen length. Source: the campaign contract of helicable, after the usual bench
 tests of cables.
 """
 
