@@ -27,8 +27,8 @@ class BeamConstants:
     sentence: str
 
 
-def beam_constants(scenario: Scenario, cable: str) -> BeamConstants:
-    """The section that the scenario asks for; `cable` is what `cell` homogenizes.
+def beam_constants(scenario: Scenario, cable: str, cell: SectionStiffness | None = None) -> BeamConstants:
+    """The section that the scenario asks for; `cable` is what `cell` homogenizes, unless its section is given.
 
     Raises
     ------
@@ -41,9 +41,10 @@ def beam_constants(scenario: Scenario, cable: str) -> BeamConstants:
             name, published_section(scenario), "published: E 142, G_yoz 53, G_xoz 45 MPa (short specimen)"
         )
     if name == "cell":
-        with progress("homogenizing") as tell:
-            section = homogenize_cable(read_cable(cable), progress=tell).section
-        return BeamConstants(name, section, f"cell: long cable {cable}, all parts bonded, averaged over the pitch")
+        if cell is None:
+            with progress("homogenizing") as tell:
+                cell = homogenize_cable(read_cable(cable), progress=tell).section
+        return BeamConstants(name, cell, f"cell: long cable {cable}, all parts bonded, averaged over the pitch")
     return BeamConstants(name, _from_file(Path(name)), f"from the file {name}")
 
 

@@ -5,31 +5,34 @@ Exit codes: 0 done; 1 it ran, but the result was not reached; 2 the input cannot
 
 from __future__ import annotations
 
+import importlib
 import sys
 from collections.abc import Sequence
 
 import typer
 
 from geometry.errors import ConvergenceError, InputError
-from helicable.commands.cables import cables
-from helicable.commands.compare import compare
-from helicable.commands.demo import demo
-from helicable.commands.homogenize import homogenize
-from helicable.commands.mesh import mesh
-from helicable.commands.show import show
-from helicable.commands.tow import tow
 from helicable.screen import errors
 
-app = typer.Typer(
-    name="helicable",
-    help="From the drawing of a helical cable to its beam stiffness, its towing run, and what measurements say.",
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    rich_markup_mode="markdown",
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
-for command in (cables, show, mesh, homogenize, tow, compare, demo):
-    app.command()(command)
+VERBS = ("cables", "show", "mesh", "homogenize", "tow", "compare", "demo")
+
+
+def application(arguments: Sequence[str]) -> typer.Typer:
+    """The command line with the verb that is called, or with all verbs for the help: each loads only what it needs."""
+    app = typer.Typer(
+        name="helicable",
+        help="From the drawing of a helical cable to its beam stiffness, its towing run, and what measurements say.",
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        rich_markup_mode="markdown",
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    called = [verb for verb in VERBS if list(arguments[:1]) == [verb]]
+    for verb in called or VERBS:
+        app.command(verb)(getattr(importlib.import_module(f"helicable.commands.{verb}"), verb))
+    app.callback()(lambda: None)
+    return app
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -41,7 +44,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     2
     """
     try:
-        result = app(args=None if arguments is None else list(arguments), standalone_mode=False)
+        words = sys.argv[1:] if arguments is None else list(arguments)
+        result = application(words)(args=words, standalone_mode=False)
     except InputError as error:
         return _fail(str(error), 2)
     except ConvergenceError as error:

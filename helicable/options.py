@@ -14,4 +14,6 @@ JsonOption = Annotated[Path | None, typer.Option("--json", metavar="FILE", help=
 OutOption = Annotated[
     Path | None, typer.Option("--out", metavar="DIR", help="Write pictures and tables into this folder.")
 ]
-SizeOption = Annotated[str, typer.Option("--size", metavar="LENGTH", help="Element size in the cross-section.")]
+SizeOption = Annotated[
+    str | None, typer.Option("--size", metavar="LENGTH", help='Element size in the cross-section, such as "1.5 mm".')
+]

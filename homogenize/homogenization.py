@@ -48,15 +48,15 @@ class Homogenization:
         return self.cell.stiffness
 
 
-def homogenize_cable(cable: Cable, *, size: float = 1.5e-3, progress: Progress | None = None) -> Homogenization:
+def homogenize_cable(cable: Cable, *, size: float | None = None, progress: Progress | None = None) -> Homogenization:
     """Mesh the cross-section, solve the helical cell and derive the constants.
 
     Parameters
     ----------
     cable : Cable
         From :func:`geometry.read_cable`.
-    size : float
-        Element size [m]; elements are smaller in thin layers and gaps.
+    size : float, optional
+        Element size [m], a share of the diameter if not given; elements are smaller in thin layers and gaps.
     progress : callable, optional
         Called with a fraction and a sentence.
 
@@ -91,16 +91,16 @@ def homogenize_cable(cable: Cable, *, size: float = 1.5e-3, progress: Progress |
 
 
 def slice_stiffness(
-    cable: Cable, *, size: float = 1.5e-3, slices_per_pitch: int = 128, progress: Progress | None = None
+    cable: Cable, *, size: float | None = None, slices_per_pitch: int = 128, progress: Progress | None = None
 ) -> PeriodicCell:
     """Tension and torsion of the same cable by the 3D periodic cell: one layer of hexahedra, 1 / `slices_per_pitch` of the lay high.
 
     The chord of the turning section makes an error of order (2 pi / slices_per_pitch)^2 / 12, 2e-4 for 128. A straight cable gets a
-    slice as high as `size`.
+    slice a hundredth of its diameter high.
     """
     tell = progress or (lambda fraction, sentence: None)
     tell(0.0, "meshing the slice")
     mesh = cross_section_mesh(cable, size=size, kind="quad")
     rate = abs(mesh.twist_rate)
-    height = 2 * np.pi / rate / slices_per_pitch if rate > 0 else size
+    height = 2 * np.pi / rate / slices_per_pitch if rate > 0 else cable.outer_diameter / 100
     return solve_periodic_cell(helical_slice(mesh, height, 1), progress=progress)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from compare import BenchModel, BenchSection, Campaign, NominalSection, plot_comparison
+from compare import BenchModel, BenchSection, Campaign, plot_comparison
 from compare import compare as compare_with
 from geometry import read_cable
-from geometry.errors import ConvergenceError
+from geometry.errors import ConvergenceError, SpecError
 from helicable.options import JsonOption, OutOption
 from helicable.screen import folder, progress, say, table, write_json
 from homogenize import homogenize_cable
@@ -28,7 +29,7 @@ def compare(
     Example: `helicable compare my-campaign --out report`
     """
     read = Campaign.read(campaign)
-    section = campaign_section(read, campaign)
+    section = campaign_section(read)
     with progress("comparing") as tell:
         comparison = compare_with(BenchModel(section), read, progress=tell)
     record = comparison.record()
@@ -52,14 +53,16 @@ def compare(
         raise ConvergenceError("no experiment of this campaign could be compared; see the notes above.")
 
 
-def campaign_section(campaign: Campaign, folder: Path) -> BenchSection:
-    """The section the campaign states; its cable is homogenized where it names one."""
+def campaign_section(campaign: Campaign) -> BenchSection:
+    """The section that the campaign states; where it names a cable, that is homogenized and answers for the rest."""
     if campaign.cable is None:
-        return NominalSection(campaign.stated_section)
-    path = folder / campaign.cable
+        if campaign.section is None:
+            raise SpecError("campaign.toml names neither a cable nor a [section]; add one of them.")
+        return campaign.section
+    path = campaign.folder / campaign.cable
     with progress("homogenizing") as tell:
         base = homogenize_cable(read_cable(path if path.is_file() else campaign.cable), progress=tell).section
-    return NominalSection(campaign.stated_section, base) if campaign.stated_section else base
+    return base if campaign.section is None else replace(campaign.section, base=base)
 
 
 def _short(value: float | None) -> str:

@@ -13,7 +13,7 @@ from beam import TowingRun
 from geometry import Cable, draw_cross_section, draw_cutaway, draw_mesh, read_cable
 from helicable.beam_constants import BeamConstants
 from helicable.commands.homogenize import constant_rows, homogenization_record, show_constants
-from helicable.commands.show import clearance_rows, conductor_rows, derived_rows, number_rows
+from helicable.commands.show import clearance_rows, derived_rows, number_rows
 from helicable.commands.tow import (
     REFERENCE_CABLE,
     draw_run,
@@ -56,7 +56,7 @@ def demo(
         slice_result = slice_stiffness(made, size=SLICE_SIZE, slices_per_pitch=SLICES_PER_PITCH, progress=tell)
     run, used = towing_run(SCENARIO, "published", cable)
     show_run(run, used)
-    stiff, stiff_used = towing_run(SCENARIO, "cell", cable)
+    stiff, stiff_used = towing_run(SCENARIO, "cell", cable, result.section)
     show_run(stiff, stiff_used)
     run.write(out / "run.nc")
     pictures = draw_run(run, out)
@@ -109,12 +109,10 @@ def _facts(result: Homogenization, run: TowingRun) -> list[tuple[str, str]]:
 
 
 def _cable_section(cable: Cable, figures: list[Figure]) -> Section:
-    columns = ("conductor", "make-up", "diameter mm", "fill", "lay", "E GPa", "density kg/m3")
     tables = [
-        Table("Derived from the cable file", ("quantity", "value"), derived_rows(cable)),
-        Table("Conductors as cylinders", columns, conductor_rows(cable), right=(2, 3, 5, 6)),
+        Table("Derived from the cable file", ("", "quantity", "value", "how"), derived_rows(cable), right=(2,)),
         Table("Clearances along the lay", ("between", "gap mm"), clearance_rows(cable), right=(1,)),
-        Table("Numbers of the file", ("number", "value", "range", "status", "source"), number_rows(cable.numbers)),
+        Table("Numbers of the file", ("number", "value", "status", "source"), number_rows(cable), right=(1,)),
     ]
     return Section("The cable", "\n\n".join(cable.notes), figures, tables)
 

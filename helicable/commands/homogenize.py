@@ -26,7 +26,7 @@ def homogenize(
         str, typer.Option(help="`helical`: 2D cell, the whole 6x6; `cell`: 3D periodic slice, tension and torsion.")
     ] = "helical",
     interface: Annotated[str, typer.Option(help="How the parts hold together: `bonded`.")] = INTERFACES,
-    size: SizeOption = "1.5 mm",
+    size: SizeOption = None,
     phase: Annotated[str, typer.Option(help="Angle of the section for the values at a phase.")] = "0 deg",
     json: JsonOption = None,
     out: OutOption = None,
@@ -37,7 +37,7 @@ def homogenize(
     """
     _check_choices(method, interface)
     made = read_cable(cable)
-    element = read_quantity(size, "m", "--size")
+    element = None if size is None else read_quantity(size, "m", "--size")
     angle = read_quantity(phase, "rad", "--phase")
     if method == "cell":
         with progress("3D periodic cell") as tell:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from geometry import read_cable
+from geometry import read_cable, slice_of_size, slice_record, write_mesh
 from helicable.options import CableArgument, JsonOption
 from helicable.screen import progress, say, table, write_json
 
@@ -22,11 +23,12 @@ def mesh(
 
     Example: `helicable mesh mcpt-1.9-3.3-3x35 --elements 20000 --out cell.vtu`
     """
-    from geometry import mesh_cable
-
     made = read_cable(cable)
+    start = time.perf_counter()
     with progress("meshing") as tell:
-        record = mesh_cable(made, elements, out, progress=tell)
+        slice_mesh = slice_of_size(made, elements, progress=tell)
+        write_mesh(slice_mesh, out)
+    record = slice_record(made, slice_mesh, time.perf_counter() - start)
     rows = [
         ("hexahedra", f"{record['hexes']}"),
         ("nodes", f"{record['nodes']}"),

@@ -13,6 +13,7 @@ from geometry.errors import ConvergenceError, SpecError
 from helicable.beam_constants import BeamConstants, beam_constants
 from helicable.options import JsonOption
 from helicable.screen import folder, progress, say, table, write_json
+from homogenize import SectionStiffness
 
 REFERENCE_CABLE = "mcpt-1.9-3.3-3x35"
 
@@ -57,12 +58,14 @@ def tow(
         raise ConvergenceError(run.status)
 
 
-def towing_run(scenario: str, constants: str | None, cable: str) -> tuple[TowingRun, BeamConstants]:
-    """Read a scenario, resolve its constants, and run it with progress."""
+def towing_run(
+    scenario: str, constants: str | None, cable: str, cell: SectionStiffness | None = None
+) -> tuple[TowingRun, BeamConstants]:
+    """Read a scenario, resolve its constants (`cell`, if given, is the section of the cable), and run it with progress."""
     read = read_scenario(scenario)
     if constants is not None:
         read = read.model_copy(update={"constants": constants})
-    used = beam_constants(read, cable)
+    used = beam_constants(read, cable, cell)
     with progress("towing") as tell:
         run = run_towing(read, used.section, progress=tell)
     return run, used

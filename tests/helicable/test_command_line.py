@@ -1,0 +1,167 @@
+"""The verbs: exit codes 0 / 1 / 2, sentences on stderr, JSON keys as in the contract, help with an example."""
+
+import json
+
+import pytest
+
+from helicable.main import main
+
+CABLE = "mcpt-1.9-3.3-3x35"
+VERBS = ("cables", "show", "mesh", "homogenize", "tow", "compare", "demo")
+
+
+@pytest.fixture(scope="module")
+def homogenized(tmp_path_factory):
+    """One coarse run of `helicable homogenize`, shared."""
+    file = tmp_path_factory.mktemp("homogenize") / "section.json"
+    assert main(["homogenize", CABLE, "--size", "4 mm", "--json", str(file)]) == 0
+    return file
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_has_help_with_an_example(verb, capsys):
+    assert main([verb, "--help"]) == 0
+    assert f"Example: helicable {verb}" in " ".join(capsys.readouterr().out.split())
+
+
+def test_no_verb_shows_the_help(capsys):
+    main([])
+    assert "homogenize" in capsys.readouterr().out
+
+
+def test_cables_lists_the_reference_cable(tmp_path, capsys):
+    assert main(["cables", "--json", str(tmp_path / "c.json")]) == 0
+    cables = json.loads((tmp_path / "c.json").read_text())
+    entry = next(c for c in cables["cables"] if c["name"] == CABLE)
+    assert cables["schema"] == 1
+    assert entry["outer_diameter"] == pytest.approx(0.0516)
+    assert entry["mass_per_length"] == pytest.approx(4.05, abs=0.01)
+    assert CABLE in capsys.readouterr().out
+
+
+def test_show_names_what_is_assumed(tmp_path, capsys):
+    assert main(["show", CABLE, "--json", str(tmp_path / "s.json")]) == 0
+    out = capsys.readouterr().out
+    assert "Assumed, with the range to sweep" in out
+    assert "6343" in out
+    record = json.loads((tmp_path / "s.json").read_text())
+    assert {"published", "deduced", "assumed"} <= {n["status"] for n in record["numbers"]}
+
+
+def test_homogenize_writes_the_contracts_keys(homogenized):
+    record = json.loads(homogenized.read_text())
+    assert record["schema"] == 1
+    assert record["section"]["order"] == ["gamma_x", "gamma_y", "epsilon", "kappa_x", "kappa_y", "tau"]
+    assert len(record["section"]["C"]) == 6
+    assert all(isinstance(v, float) for row in record["section"]["C"] for v in row)
+    keys = {"EA_blocked_twist", "EA_free_twist", "GJ", "coupling", "EI_x", "EI_y", "GA_x", "GA_y"}
+    assert keys <= set(record["section"])
+    assert {"E_blocked_twist", "E_free_twist", "G_yoz", "G_xoz", "bounds", "mesh", "seconds", "notes"} <= set(record)
+    assert record["bounds"]["EA_lower"] <= record["section"]["EA_free_twist"] <= record["section"]["EA_blocked_twist"]
+    assert record["section"]["EA_blocked_twist"] <= record["bounds"]["EA_upper"]
+    assert all(check["holds"] for check in record["checks"])
+
+
+def test_the_long_cable_is_far_stiffer_than_the_published_specimen(homogenized):
+    """142 MPa lies below the bound of the straight earth conductor; the cell value is one to two orders above it."""
+    record = json.loads(homogenized.read_text())
+    assert record["bounds"]["EA_lower"] / record["area"] > 5 * 142e6
+    assert 10 * 142e6 < record["E_free_twist"] < record["E_blocked_twist"] < 100 * 142e6
+
+
+def test_the_slice_writes_null_where_it_does_not_compute(tmp_path):
+    file = tmp_path / "cell.json"
+    assert main(["homogenize", CABLE, "--method", "cell", "--size", "6 mm", "--json", str(file)]) == 0
+    record = json.loads(file.read_text())
+    assert record["section"]["C"][0][0] is None
+    assert record["section"]["C"][2][5] == record["section"]["C"][5][2] == record["section"]["coupling"]
+    assert record["G_yoz"] is None
+
+
+def test_mesh_writes_the_file_and_the_contracts_keys(tmp_path):
+    file, record = tmp_path / "cell.vtu", tmp_path / "mesh.json"
+    assert main(["mesh", CABLE, "--elements", "4000", "--out", str(file), "--json", str(record)]) == 0
+    found = json.loads(record.read_text())
+    keys = {
+        "schema",
+        "cable",
+        "elements",
+        "hexes",
+        "prisms",
+        "tets",
+        "nodes",
+        "min_scaled_jacobian",
+        "height",
+        "matched_faces",
+    }
+    assert keys | {"regions", "seconds", "peak_memory"} <= set(found)
+    assert found["elements"] >= 4000
+    assert found["matched_faces"] is True
+    assert found["min_scaled_jacobian"] > 0
+    for region in found["regions"].values():
+        assert region["volume"] == pytest.approx(region["closed_form"], rel=0.03)  # straight edges, coarse mesh
+    assert file.stat().st_size > 10_000
+
+
+BAD = [
+    (["homogenize", "no-such-cable"], "no-such-cable"),
+    (["homogenize", CABLE, "--size", "1.5"], "--size"),
+    (["homogenize", CABLE, "--size", "-1 mm"], "size"),
+    (["homogenize", CABLE, "--size", "1 kg"], "--size"),
+    (["homogenize", CABLE, "--method", "magic"], "magic"),
+    (["homogenize", CABLE, "--interface", "frictionless"], "bonded"),
+    (["mesh", CABLE, "--elements", "0"], "element"),
+    (["mesh", CABLE, "--elements", "1000000000"], "element"),
+    (["tow"], "--list"),
+    (["tow", "no-such-scenario"], "no-such-scenario"),
+    (["tow", "intelligent-horizontal", "--constants", "nothing.json"], "nothing.json"),
+    (["compare", "no-such-folder"], "no-such-folder"),
+    (["no-such-verb"], "no-such-verb"),
+    (["homogenize"], "CABLE"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "word"), BAD, ids=[" ".join(a) for a, _ in BAD])
+def test_bad_input_is_one_sentence_and_exit_code_2(arguments, word, capsys):
+    assert main(arguments) == 2
+    err = capsys.readouterr().err
+    assert word in err
+    assert "Traceback" not in err
+
+
+def test_an_output_place_that_cannot_be_written_is_a_sentence(tmp_path, capsys):
+    blocker = tmp_path / "file"
+    blocker.write_text("")
+    assert main(["cables", "--json", str(blocker / "c.json")]) == 2
+    assert "cannot be written" in capsys.readouterr().err
+
+
+def test_compare_reports_each_experiment(tmp_path, capsys):
+    """A linear cable with noise: the true stiffness comes back, the residual is noise."""
+    campaign = write_campaign(tmp_path / "campaign")
+    out = tmp_path / "out"
+    assert main(["compare", str(campaign), "--json", str(tmp_path / "c.json"), "--out", str(out)]) == 0
+    record = json.loads((tmp_path / "c.json").read_text())
+    assert {e["id"] for e in record["experiments"]} == {"b1", "b2"}
+    assert {"id", "kind", "channel", "set", "rmse", "bias", "noise_floor", "excess"} <= set(record["experiments"][0])
+    EI = record["calibrated"]["EI"]
+    assert EI["value"] == pytest.approx(60.0, abs=max(5 * EI["std"], 0.3))
+    assert list(out.glob("*.png"))
+    assert "EI" in capsys.readouterr().out
+
+
+def write_campaign(folder):
+    import numpy as np
+
+    folder.mkdir()
+    (folder / "campaign.toml").write_text('title = "test"\n[section]\nEI = "90 N m^2"\n[sensors]\nmoment = "0.2 N m"\n')
+    rng = np.random.default_rng(5)
+    rows = ["id,kind,file,specimen,repeat_of,set,temperature [degC]"]
+    for name, repeat in (("b1", ""), ("b2", "b1")):
+        rows.append(f"{name},bending,{name}.csv,A,{repeat},calibrate,20")
+        curvature = np.sin(np.linspace(0, 2 * np.pi, 200))
+        moment = 60.0 * curvature + 0.2 * rng.standard_normal(200)
+        lines = ["curvature [1/m],moment [N m]", *(f"{k:.6f},{m:.5f}" for k, m in zip(curvature, moment))]
+        (folder / f"{name}.csv").write_text("\n".join(lines) + "\n")
+    (folder / "experiments.csv").write_text("\n".join(rows) + "\n")
+    return folder
