@@ -1,12 +1,7 @@
 r"""The outlines of a cross-section as a planar graph whose faces are the parts.
 
-Round parts touch each other at single points, where the filler would end in cusps of angle zero that no mesh can fill.
-Near every contact the gap is c s^2 / 2 at the distance s. Where it is narrower than `closure`, the filler is
-replaced by the material of the layer that is touched (earth cover, wrap): the filler then ends in a blunt
-edge of that width. The width is chosen so that no layer gains more than 0.4 % of its area; the outlines that are kept
-stay exact.
-
-Every curve is a WireTrace (a circle about the axis is one too), cut at the ends of the closures into pieces.
+Every curve is a WireTrace (a circle about the axis is one too), cut into pieces at the ends of the closures
+(contact_closure.py).
 The loops follow from one rule: a piece is walked with the face on its left, and in every face one piece leaves each vertex.
 """
 
@@ -19,11 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.cable import Cable, Part
+from geometry.contact_closure import Contact, Neck, find_closures
 from geometry.errors import MeshError
 from geometry.wire_trace import WireTrace
-
-CLOSURE_SHARE = 0.004
-"""Largest share of a touched layer's area that closures may add."""
 
 
 @dataclass(frozen=True)
@@ -35,16 +28,6 @@ class Edge:
     head: int
     start: float = 0.0
     end: float = 0.0
-
-
-@dataclass(frozen=True)
-class Neck:
-    """Narrow place at `point`: the gap is max(closure, gap + bend s^2) [m] at the distance s."""
-
-    point: NDArray[np.float64]
-    gap: float
-    bend: float
-    closure: float
 
 
 @dataclass
@@ -69,16 +52,6 @@ class SectionOutline:
         return self.curves[edge.curve].point(np.linspace(edge.start, edge.end, count))
 
 
-@dataclass(frozen=True)
-class _Contact:
-    """Closure between curve `a` (kept) and curve `b` (its arc goes); angles at the two ends, in the sense of a."""
-
-    a: int
-    b: int
-    a_ends: tuple[float, float]
-    b_ends: tuple[float, float]
-
-
 def section_outline(cable: Cable, neck_below: float) -> SectionOutline:
     """Outline of all parts of a cable.
 
@@ -101,10 +74,12 @@ def section_outline(cable: Cable, neck_below: float) -> SectionOutline:
                 curves.append(trace)
     outline = SectionOutline(curves)
     zone = _zone_curves(cable, index)
-    contacts: list[_Contact] = []
+    contacts: list[Contact] = []
     if zone:
         cores, centre, outer = zone
-        contacts = _closures(cable, outline, cores, centre, outer, neck_below)
+        hosts = cores + [outer] + ([centre] if centre is not None else [])
+        areas = {number: _host_area(cable, curves[number]) for number in hosts}
+        contacts, outline.necks = find_closures(curves, cores, centre, outer, areas, neck_below)
     pieces = _cut(outline, contacts)
     bridges = _bridges(outline, contacts, pieces)
     _ring_faces(outline, rings, index, zone, contacts, pieces, bridges)
@@ -133,50 +108,6 @@ def _zone_curves(
     return cores, centre[0] if centre else None, index[(0.0, 0.0, round(cable.laid_up_radius, 12))]
 
 
-def _closures(
-    cable: Cable, outline: SectionOutline, cores: list[int], centre: int | None, outer: int, neck_below: float
-) -> list[_Contact]:
-    """All closures; the necks go into the outline, for the mesh size."""
-    curves = outline.curves
-    pairs = [(core, other) for core in cores for other in (centre, outer) if other is not None]
-    pairs += [(a, b) for i, a in enumerate(cores) for b in cores[i + 1 :]]
-    near = []
-    for a, b in pairs:
-        phi = np.linspace(0, 2 * np.pi, 361)
-        gaps = _gap(curves[a], curves[b], phi)
-        k = int(np.argmin(gaps))
-        phi = np.linspace(phi[k] - 0.02, phi[k] + 0.02, 201)
-        gaps = _gap(curves[a], curves[b], phi)
-        if gaps.min() < neck_below:
-            near.append((a, b, float(phi[np.argmin(gaps)]), float(gaps.min())))
-    contacts = []
-    for a, b, phi, gap in near:
-        bend = _bend(curves[a], curves[b], phi, gap)
-        sharing = sum(1 for _, host, _, _ in near if host == b)
-        closure = _closure_width(bend, CLOSURE_SHARE * _host_area(cable, curves[b]) / sharing, curves[a].radius)
-        outline.necks.append(Neck(curves[a].point(phi), gap, bend, closure))
-        if gap < closure:
-            ends = [_end(curves[a], curves[b], phi, sense, closure) for sense in (-1, 1)]
-            b_ends = curves[b].nearest(curves[a].point(np.array(ends)))
-            contacts.append(_Contact(a, b, (ends[0], ends[1]), (float(b_ends[0]), float(b_ends[1]))))
-    return contacts
-
-
-def _gap(a: WireTrace, b: WireTrace, phi: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Distance from points phi of curve a to curve b."""
-    points = a.point(phi)
-    if b.centre_radius == 0:
-        return np.abs(np.hypot(*points.T) - b.radius)
-    return np.linalg.norm(points - b.point(b.nearest(points)), axis=1)
-
-
-def _bend(a: WireTrace, b: WireTrace, phi: float, gap: float) -> float:
-    """Growth of the gap with the square of the distance from the contact [1/m]."""
-    side = 0.1
-    grown = float(np.mean(_gap(a, b, np.array([phi - side, phi + side]))))
-    return (grown - gap) / (side * a.radius) ** 2
-
-
 def _host_area(cable: Cable, curve: WireTrace) -> float:
     """Area of the layer that gets the closures on this curve: outside the laid-up circle, inside any other curve."""
     laid_up = curve.centre_radius == 0 and abs(curve.radius - cable.laid_up_radius) < 1e-12
@@ -187,27 +118,7 @@ def _host_area(cable: Cable, curve: WireTrace) -> float:
     raise MeshError("no part lies along a curve of the section.")
 
 
-def _closure_width(bend: float, area: float, radius: float) -> float:
-    """Width w whose lens (2/3) w sqrt(w / bend) has the given area, at most a hundredth of the radius."""
-    return min(float((1.5 * area * np.sqrt(bend)) ** (2 / 3)), 0.01 * radius)
-
-
-def _end(a: WireTrace, b: WireTrace, phi: float, sense: int, width: float) -> float:
-    """Angle on a, from phi in the given sense, where the gap to b has grown to `width`."""
-    low, high = 0.0, 0.02
-    while float(_gap(a, b, np.array([phi + sense * high]))[0]) < width:
-        high *= 1.3
-        if high > np.pi / 2:
-            raise MeshError(
-                "two parts run so close to each other over a quarter turn that the gap cannot be meshed; join them."
-            )
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if float(_gap(a, b, np.array([phi + sense * middle]))[0]) < width else (low, middle)
-    return phi + sense * high
-
-
-def _cut(outline: SectionOutline, contacts: list[_Contact]) -> dict[int, list[tuple[int, int | None, bool]]]:
+def _cut(outline: SectionOutline, contacts: list[Contact]) -> dict[int, list[tuple[int, int | None, bool]]]:
     """Cut every curve at the closure ends; per curve its pieces in ccw order: (edge, closure it bounds or None, removed)."""
     pieces: dict[int, list[tuple[int, int | None, bool]]] = {}
     for number, curve in enumerate(outline.curves):
@@ -257,7 +168,7 @@ def _parts_of(angle: float) -> int:
 
 
 def _bridges(
-    outline: SectionOutline, contacts: list[_Contact], pieces: dict[int, list[tuple[int, int | None, bool]]]
+    outline: SectionOutline, contacts: list[Contact], pieces: dict[int, list[tuple[int, int | None, bool]]]
 ) -> list[list[int]]:
     """Straight edges across the gap at both ends of each closure, walked with the filler on the left."""
     bridges = []
@@ -290,7 +201,7 @@ def _loops(outline: SectionOutline, signed: list[int]) -> list[list[int]]:
     return loops
 
 
-def _hosted(number: int, contacts: list[_Contact], pieces: dict, bridges: list[list[int]]) -> list[int]:
+def _hosted(number: int, contacts: list[Contact], pieces: dict, bridges: list[list[int]]) -> list[int]:
     """Signed edges that enclose the closures hosted by curve `number`, closure on the left."""
     signed = []
     for c, contact in enumerate(contacts):
@@ -305,7 +216,7 @@ def _ring_faces(
     rings: list[Part],
     index: dict[tuple[float, float, float], int],
     zone: tuple[list[int], int | None, int] | None,
-    contacts: list[_Contact],
+    contacts: list[Contact],
     pieces: dict[int, list[tuple[int, int | None, bool]]],
     bridges: list[list[int]],
 ) -> None:
@@ -328,7 +239,7 @@ def _ring_faces(
 def _filler_faces(
     outline: SectionOutline,
     zone: tuple[list[int], int | None, int],
-    contacts: list[_Contact],
+    contacts: list[Contact],
     pieces: dict[int, list[tuple[int, int | None, bool]]],
     bridges: list[list[int]],
 ) -> list[list[list[int]]]:

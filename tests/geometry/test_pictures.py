@@ -28,7 +28,7 @@ def test_every_kind_has_one_colour_and_title():
 
 def test_section_shows_the_parts_in_their_proportions(cable, tmp_path):
     """Pixels of a colour over pixels of the sheath = ratio of the areas, within 12 % (lines and labels lie on top)."""
-    path = draw_cross_section(cable, tmp_path / "section.png", dpi=250)
+    path = draw_cross_section(cable, tmp_path / "section.png", dpi=200)
     area = {kind: sum(p.area for p in cable.parts if p.kind == kind) for kind in KINDS}
     sheath = share(path, kind_colour("sheath"))
     for kind in ("conductor", "insulation", "interstices", "screen"):

@@ -118,6 +118,12 @@ def written(folder: Path, text: str):
     return read_cable(path)
 
 
+THICK = """[cores.thick]
+conductor = "core"
+insulation_wall = { value = "1.3 mm", status = "computed", source = "test" }
+insulation_material = "rubber insulation"
+
+"""
 VARIANTS = {
     "three touching cores": EXAMPLE,
     "other hand": EXAMPLE.replace('hand = "S"', 'hand = "Z"'),
@@ -142,6 +148,9 @@ VARIANTS = {
     .replace('"140 mm"]', '"160 mm"]'),
     "cores apart from each other": EXAMPLE.replace(
         "[lay-up]", '[lay-up]\npitch_circle_radius = { value = "4 mm", status = "computed", source = "test" }'
+    ),
+    "unequal cores": EXAMPLE.replace("[lay-up]", THICK + "[lay-up]").replace(
+        '"core", "core", "core"', '"core", "thick", "core", "thick"'
     ),
     "no filler": EXAMPLE.replace('[interstices]\nmaterial = "filler rubber"', ""),
 }
