@@ -46,6 +46,7 @@ class Layout(_Part):
 
     bend_radius: Annotated[Entry, quantity("m", 0.01, 100.0)]
     upper_strand: Annotated[Entry, quantity("m", 0.0, 1e4)]
+    slack: Annotated[Entry, quantity("m", -0.5, 1.0)]
     inclination: Annotated[Entry, quantity("rad", -np.pi / 3, np.pi / 3)]
 
 
@@ -161,6 +162,11 @@ class Scenario(_Part):
     def lower_strand(self) -> float:
         """Length of the lower strand at the start [m]."""
         return self.cable.length.value - self.layout.upper_strand.value - self.bend_length
+
+    @property
+    def roller_start(self) -> float:
+        """x of the roller's axis at the start [m]: taut at the lower strand's end, nearer by half of the slack."""
+        return -self.lower_strand + 0.5 * self.layout.slack.value
 
     @property
     def elements(self) -> int:

@@ -48,7 +48,7 @@ def towing_model(scenario: Scenario, section: SectionStiffness, inertia: Section
     pieces = [(lower, 0.0), (scenario.bend_length, -1.0 / R), (layout.upper_strand.value, 0.0)]
     trough = ContactLaw(contact.stiffness.value, contact.friction.value, contact.damping_time.value)
     roller = ContactLaw(contact.roller_stiffness.value, 0.0, contact.damping_time.value)
-    deck_begin = (-lower, R, -np.inf)
+    deck_begin = (scenario.roller_start, R, -np.inf)
     slope = layout.inclination.value
     return RodModel(
         rod,
@@ -58,7 +58,7 @@ def towing_model(scenario: Scenario, section: SectionStiffness, inertia: Section
         surfaces=[
             Plane("trough", trough),
             Plane("deck", trough, offset=2 * R, low=deck_begin, box_travel=scenario.trolley),
-            Cylinder("roller", roller, (-lower, R, 0.0), R, scenario.trolley),
+            Cylinder("roller", roller, (scenario.roller_start, R, 0.0), R, scenario.trolley),
         ],
     )
 

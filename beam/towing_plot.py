@@ -61,7 +61,7 @@ def _draw_cable(
     scenario = run.scenario
     R, t = scenario.layout.bend_radius.value, float(data["time"].values[k])
     xy = data["position"].values[k, :, :2]
-    centre = -scenario.lower_strand + float(scenario.trolley(t)[0][0])
+    centre = scenario.roller_start + float(scenario.trolley(t)[0][0])
     ax.axhspan(-0.25, 0.0, color="#d9d9d9", zorder=0)
     ax.fill_between([centre, 12.0], 2 * R - 0.05, 2 * R, color="#d9d9d9", zorder=0)
     ax.add_patch(Circle((centre, R), R, facecolor="#eeeeee", edgecolor="#777777", linewidth=1, zorder=1))
@@ -80,7 +80,7 @@ def _draw_cable(
     ax.annotate("supply", (0.0, 0.0), (6, 3), textcoords="offset points", fontsize=8)
     ax.annotate("shearer", tuple(xy[-1]), (6, -3), textcoords="offset points", fontsize=8)
     ax.plot(*xy[-1], ">", color="black", ms=6, zorder=4)
-    ax.set(xlim=(-scenario.lower_strand - 2 * R, max(2.0, float(data["position"].values[:, :, 0].max()) + 1.2)))
+    ax.set(xlim=(-scenario.lower_strand - 2 * R - 0.2, max(2.0, float(data["position"].values[:, :, 0].max()) + 1.2)))
     ax.set(ylim=(-0.25, 2 * R + 0.3), ylabel="y [m]")
     ax.text(0.995, 0.5, f"t = {t:.2f} s", transform=ax.transAxes, ha="right", va="center", fontsize=9)
     return lines

@@ -64,6 +64,7 @@ def _notes(run: TowingRun) -> list[str]:
         "contact_35 is null: clamps enter as mass only, there is no clamp-cable contact yet.",
         "The run is plane: without a lateral disturbance the lateral displacement is round-off.",
         "Forces at a node are what the shearer's side exerts on the supply's side; x is the direction of travel.",
+        "The tension at rest depends on layout.slack (not published): a bend wants to open, and a taut stiff cable holds it.",
         f"Plateaus are means from {PLATEAU_FROM:g} s on, or over the last quarter of a shorter run.",
     ]
     if not run.outcome.completed:

@@ -120,6 +120,12 @@ def test_unknown_name_lists_the_known_ones():
         read_scenario("intelligent")
 
 
+def test_slack_brings_the_roller_nearer(scenario):
+    """A cable that is 20 mm longer than the taut path lets the roller stand 10 mm nearer to the supply."""
+    loose = scenario.changed(layout__slack="20 mm")
+    assert loose.roller_start - scenario.roller_start == pytest.approx(0.010)
+
+
 def test_changed_entry_is_marked(scenario):
     """A value that was set for one run is no longer called published."""
     assert scenario.changed(cable__elements=100).cable.elements.status == "chosen"
