@@ -27,6 +27,8 @@ GMSH_TYPE = {"triangle": 2, "triangle6": 9, "quad": 3, "quad9": 10}
 DEFAULT_SIZE = 1 / 26
 """Default size over outer diameter; 2.0 mm for a cable of 51.6 mm."""
 LARGEST = 2e7
+MOST_EDGES = 10_000
+"""Edges round one thin layer."""
 GOOD_ENOUGH = 0.15
 """Smallest scaled Jacobian at which no other recipe is tried."""
 QUAD_RECIPES: list[Mapping[str, float]] = [
@@ -122,6 +124,14 @@ def _check_request(cable: Cable, size: float, kind: str) -> None:
             f"a mesh size of {1e3 * size:.3g} mm is larger than the cable's radius of {1e3 * cable.outer_radius:.3g} mm: "
             f"try {1e3 * cable.outer_diameter * DEFAULT_SIZE:.2g} mm."
         )
+    for part in cable.parts:
+        wall = part.outer_radius - part.inner_radius
+        if part.kind != "interstices" and 2 * np.pi * part.outer_radius / (4 * wall) > MOST_EDGES:
+            raise MeshError(
+                f"{part.name} is {1e3 * wall:.3g} mm thick, too thin to be meshed round a diameter of "
+                f"{2e3 * part.outer_radius:.4g} mm: leave it out, or make it at least "
+                f"{1e3 * np.pi * part.outer_radius / (2 * MOST_EDGES):.2g} mm."
+            )
     estimate = 2.3 * cable.area / size**2
     if estimate > LARGEST:
         raise MeshError(

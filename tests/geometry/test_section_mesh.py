@@ -187,3 +187,8 @@ def test_impossible_sizes(cable, size):
 def test_unknown_kind(cable):
     with pytest.raises(MeshError, match="triangle6"):
         cross_section_mesh(cable, kind="tet")
+
+
+def test_a_layer_too_thin_to_be_meshed_is_named(tmp_path):
+    with pytest.raises(MeshError, match=r"sheath is 1e-05 mm thick.*at least"):
+        cross_section_mesh(written(tmp_path, EXAMPLE.replace('"1.6 mm"', '"10 nm"').replace('"1.2 mm"', '"1 nm"')))
