@@ -2,12 +2,18 @@
 
 Every kernel is plain Python as well: without numba, or with ``NUMBA_DISABLE_JIT=1``, the same lines run uncompiled and
 give the same numbers, some hundred times slower. Kernels run on one core; parallel work is done over whole runs.
+
+numba renews the code on disk when the kernel's own file changes, but a kernel also contains the code of kernels in other
+files. Here it is renewed whenever any file of this package that holds a kernel has changed.
 """
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
-from typing import TypeVar, cast
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, TypeVar, cast
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
@@ -17,6 +23,17 @@ except ImportError:  # the uncompiled path
     _numba = None
 
 
+@lru_cache(maxsize=1)
+def source_stamp() -> str:
+    """Digest of the files of this package that hold kernels."""
+    digest = hashlib.sha256()
+    for path in sorted(Path(__file__).parent.glob("*.py")):
+        text = path.read_bytes()
+        if b"@kernel" in text:
+            digest.update(text)
+    return digest.hexdigest()
+
+
 def kernel(function: Function) -> Function:
     """`function`, compiled for the machine at its first call, or unchanged where numba is absent.
 
@@ -24,5 +41,8 @@ def kernel(function: Function) -> Function:
     """
     if _numba is None:
         return function
-    compiled = _numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(function)
+    compiled: Any = _numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(function)
+    stored = getattr(getattr(compiled, "_cache", None), "_cache_file", None)
+    if hasattr(stored, "_source_stamp"):
+        stored._source_stamp = source_stamp()
     return cast(Function, compiled)

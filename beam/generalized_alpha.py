@@ -109,6 +109,7 @@ class Integrator:
         self.deepest: tuple[float, str] = (0.0, "")
         self._last_iterations = 0
         self._worst = ""
+        self._held = np.nonzero(~model.free)
         self._factor: Factor | None = None
         self._factor_step = 0.0
         self._ticks = 0
@@ -174,7 +175,7 @@ class Integrator:
 
     def _newton(self, t: float, h: float) -> tuple[Array, Array, Array, Forces] | None:
         am, af, gamma, beta = self.settings.coefficients
-        model, free = self.model, self.model.free
+        model = self.model
         a = self.a.copy()
         q = self.q + h * self.v + 0.5 * h * h * a
         v = self.v + h * a
@@ -184,8 +185,11 @@ class Integrator:
         fresh = 0
         for k in range(self.settings.iterations):
             forces = model.forces(t, q, v, self.anchors)
-            residual = np.where(free, model.inertia((1 - am) * a) + (1 - af) * forces.F + old, 0.0)
-            size = float(np.linalg.norm(residual))
+            residual = model.inertia((1 - am) * a)
+            residual += (1 - af) * forces.F
+            residual += old
+            residual[self._held] = 0.0
+            size = float(np.sqrt(np.vdot(residual, residual)))
             self.counters.iterations += 1
             if not np.isfinite(size):
                 self._not_finite(residual, t)
@@ -204,7 +208,7 @@ class Integrator:
                     break
             last = size
             assert self._factor is not None
-            delta = np.where(free, self._factor.solve(residual), 0.0)
+            delta = self._factor.solve(residual)
             q -= delta
             v -= gamma / (beta * h) * delta
             a -= delta / (beta * h * h)

@@ -28,7 +28,7 @@ def cantilever():
 def test_global_force_is_the_load(cantilever):
     """A dead load passes through every section unchanged; 0.5 % of |P| is the element's error in a bend."""
     _, _, turned = cantilever
-    np.testing.assert_allclose(turned[:, :3], np.tile(P, (41, 1)), rtol=0, atol=5e-3 * np.linalg.norm(P))
+    np.testing.assert_allclose(turned[:, :3], np.tile(P, (41, 1)), rtol=0, atol=5e-3 * float(np.linalg.norm(P)))
 
 
 def test_global_moment_is_the_lever(cantilever):

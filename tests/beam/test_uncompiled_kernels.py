@@ -1,8 +1,11 @@
-"""The kernels are plain Python: without compilation they give the same numbers."""
+"""The kernels are plain Python: without compilation they give the same numbers; stale machine code is never used."""
 
 import os
 import subprocess
 import sys
+
+import numpy as np
+import pytest
 
 SCRIPT = """
 import numpy as np
@@ -32,7 +35,16 @@ def result(**environment: str) -> list[str]:
 
 def test_same_numbers_without_compilation():
     """A cantilever that falls on a floor with friction, 30 steps: nine digits agree."""
-    import numpy as np
-
     compiled, plain = result(), result(NUMBA_DISABLE_JIT="1")
     np.testing.assert_allclose(np.array(compiled, float), np.array(plain, float), rtol=1e-7, atol=1e-10)
+
+
+def test_machine_code_is_renewed_with_any_kernel_file():
+    """numba looks at the kernel's own file only; the stamp of all kernel files must stand in for it."""
+    pytest.importorskip("numba")
+    from beam.compiled import source_stamp
+    from beam.element import internal_force
+
+    if not hasattr(internal_force, "py_func"):
+        pytest.skip("compilation is switched off")
+    assert internal_force._cache._cache_file._source_stamp == source_stamp()  # type: ignore[attr-defined]
