@@ -42,7 +42,7 @@ def kernel(function: Function) -> Function:
     if _numba is None:
         return function
     compiled: Any = _numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(function)
-    stored = getattr(getattr(compiled, "_cache", None), "_cache_file", None)
+    stored: Any = getattr(getattr(compiled, "_cache", None), "_cache_file", None)
     if hasattr(stored, "_source_stamp"):
         stored._source_stamp = source_stamp()
     return cast(Function, compiled)
