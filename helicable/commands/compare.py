@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -62,7 +61,7 @@ def campaign_section(campaign: Campaign) -> BenchSection:
     path = campaign.folder / campaign.cable
     with progress("homogenizing") as tell:
         base = homogenize_cable(read_cable(path if path.is_file() else campaign.cable), progress=tell).section
-    return base if campaign.section is None else replace(campaign.section, base=base)
+    return base if campaign.section is None else campaign.section.completed_by(base)
 
 
 def _short(value: float | None) -> str:
