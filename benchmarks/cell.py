@@ -6,7 +6,7 @@ Three tables, each a set of ratios within one run, because seconds depend on the
 2. assembly of the 3D slice: batched gradient products against the same form in scikit-fem, equal matrices;
 3. smoothed aggregation on the 3D slice: strength threshold 0 against 0.1, iterations and seconds.
 
-Run: python -m benchmarks.cell (about a minute). The last results are in benchmarks/results.md.
+Run: python -m benchmarks.cell (about a minute). The last results are in benchmarks/cell.md.
 """
 
 from __future__ import annotations
