@@ -32,9 +32,11 @@ $(VENV)/.test-tools: pyproject.toml | $(BIN)/python
 install: $(VENV)/.installed
 
 demo: install
+	@$(BIN)/python -c 'from geometry.gmsh_session import check_installation as check; check()'
 	@$(BIN)/helicable demo --out out/demo
 
 test: $(VENV)/.test-tools
+	@$(BIN)/python -c 'from geometry.gmsh_session import check_installation as check; check()'
 	@$(BIN)/python -m pytest
 
 lint: $(VENV)/.test-tools

@@ -68,6 +68,14 @@ def load_gmsh() -> ModuleType:
     return gmsh
 
 
+def check_installation() -> None:
+    """End the program with one sentence if gmsh cannot be loaded; called by make before long work."""
+    try:
+        load_gmsh()
+    except MeshError as missing:
+        raise SystemExit(f"helicable: {missing}") from None
+
+
 @contextlib.contextmanager
 def gmsh_session(name: str) -> Iterator[Any]:
     """A fresh gmsh model, silent and on one thread; what gmsh had open before is left as it was.

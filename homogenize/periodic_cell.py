@@ -145,7 +145,8 @@ def _multigrid(K: sp.bsr_array, points: NDArray[np.float64]) -> Callable:
     """Solver by conjugate gradients with one smoothed aggregation hierarchy for all loads."""
     import pyamg
 
-    matrix = sp.bsr_matrix(K)
+    indices, indptr = K.indices.astype(np.int32), K.indptr.astype(np.int32)
+    matrix = sp.bsr_matrix((K.data, indices, indptr), shape=K.shape)
     hierarchy: Any = pyamg.smoothed_aggregation_solver(
         matrix,
         B=_rigid_modes(points),

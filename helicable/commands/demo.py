@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from beam import TowingRun
-from geometry import Cable, draw_cross_section, draw_cutaway, draw_mesh, read_cable
+from geometry import Cable, GeometryError, draw_cross_section, draw_cutaway, draw_mesh, read_cable
 from helicable.beam_constants import BeamConstants
 from helicable.commands.homogenize import constant_rows, homogenization_record, show_constants
 from helicable.commands.show import clearance_rows, derived_rows, number_rows
@@ -79,15 +79,19 @@ def demo(
 
 
 def _draw_cable(cable: Cable, out: Path) -> list[Figure]:
+    """Both pictures; where nothing can be rendered in 3D the demo says so and goes on."""
+    figures = []
     with progress("drawing the cable") as tell:
         tell(0.1, "cross-section")
         draw_cross_section(cable, out / "cross-section.png")
+        figures.append(Figure(out / "cross-section.png", "Cross-section at z = 0, every part named"))
         tell(0.4, "cable cut open")
-        draw_cutaway(cable, out / "cutaway.png")
-    return [
-        Figure(out / "cross-section.png", "Cross-section at z = 0, every part named"),
-        Figure(out / "cutaway.png", "The helical geometry cut open"),
-    ]
+        try:
+            draw_cutaway(cable, out / "cutaway.png")
+            figures.append(Figure(out / "cutaway.png", "The helical geometry cut open"))
+        except GeometryError as error:
+            say(f"[yellow]no picture of the cable cut open:[/yellow] {error}")
+    return figures
 
 
 def _write_constants(result: Homogenization, out: Path) -> None:

@@ -8,14 +8,18 @@ from typing import Annotated
 
 import typer
 
-from geometry import read_cable, slice_of_size, slice_record, write_mesh
+from geometry import Cable, read_cable, slice_of_size, slice_record, write_mesh, write_solids
 from helicable.options import CableArgument, JsonOption
 from helicable.screen import progress, say, table, write_json
+
+CAD_FORMATS = (".step", ".stp", ".brep")
 
 
 def mesh(
     cable: CableArgument,
-    out: Annotated[Path, typer.Option("--out", metavar="FILE", help="Mesh file: .vtu or .msh.")] = Path("cell.vtu"),
+    out: Annotated[
+        Path, typer.Option("--out", metavar="FILE", help="Mesh file .vtu or .msh; or .step or .brep for CAD solids.")
+    ] = Path("cell.vtu"),
     elements: Annotated[int, typer.Option(help="At least that many volume elements.")] = 10_000,
     json: JsonOption = None,
 ) -> None:
@@ -24,6 +28,9 @@ def mesh(
     Example: `helicable mesh mcpt-1.9-3.3-3x35 --elements 20000 --out cell.vtu`
     """
     made = read_cable(cable)
+    if out.suffix.lower() in CAD_FORMATS:
+        _solids(made, out)
+        return
     start = time.perf_counter()
     with progress("meshing") as tell:
         slice_mesh = slice_of_size(made, elements, progress=tell)
@@ -49,3 +56,16 @@ def mesh(
     table("Volumes", ("region", "mesh mm3", "closed form mm3", "difference %"), regions, right=(1, 2, 3))
     say(f"written: {out}")
     write_json(json, record)
+
+
+def _solids(cable: Cable, out: Path) -> None:
+    """Half a lay of the cable as solids, or four diameters of a straight one."""
+    length = 4 * cable.outer_diameter if cable.lay is None else cable.lay / 2
+    with progress("sweeping solids") as tell:
+        tell(0.1, f"{1e3 * length:.0f} mm of {cable.name}")
+        solids = write_solids(cable, out, length)
+    rows = [(s.name, f"{1e9 * s.volume:.2f}", f"{1e9 * s.closed_form:.2f}") for s in solids]
+    table(
+        f"{cable.name}: solids of {1e3 * length:.0f} mm", ("part", "volume mm3", "closed form mm3"), rows, right=(1, 2)
+    )
+    say(f"written: {out} (millimetres)")

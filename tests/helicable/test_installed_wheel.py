@@ -22,7 +22,11 @@ def test_the_wheel_carries_its_data(tmp_path):
     install = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--target", str(place), str(wheel)]
     assert subprocess.run(install, capture_output=True).returncode == 0
     run = subprocess.run(
-        [sys.executable, "-c", PROGRAM], cwd=tmp_path, env={"PYTHONPATH": str(place), "PATH": ""}, capture_output=True, text=True
+        [sys.executable, "-c", PROGRAM],
+        cwd=tmp_path,
+        env={"PYTHONPATH": str(place), "PATH": ""},
+        capture_output=True,
+        text=True,
     )
     assert run.returncode == 0, run.stderr
     file, data, length = run.stdout.splitlines()

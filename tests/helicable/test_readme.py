@@ -20,8 +20,10 @@ def test_links_and_pictures_exist(page):
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda p: p.name)
 def test_every_command_that_is_shown_exists(page):
-    text = page.read_text(encoding="utf-8")
-    shown = set(re.findall(r"^(?:\$ )?(?:\.venv/bin/)?helicable ([a-z]+)", text, flags=re.MULTILINE))
+    blocks = "\n".join(
+        re.findall(r"^```\w*$(.*?)^```$", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    )
+    shown = set(re.findall(r"^(?:\.venv/bin/)?helicable ([a-z]+)", blocks, flags=re.MULTILINE))
     assert shown <= set(VERBS), shown - set(VERBS)
 
 
