@@ -62,7 +62,7 @@ def _notes(run: TowingRun) -> list[str]:
     notes = [
         "bushing_3_amplitude is null: clamps enter as mass only, there are no bushings yet.",
         "contact_35 is null: clamps enter as mass only, there is no clamp-cable contact yet.",
-        "The run is plane: without a lateral disturbance the lateral displacement is round-off.",
+        _lateral_note(run),
         "Forces at a node are what the shearer's side exerts on the supply's side; x is the direction of travel.",
         "The tension at rest depends on layout.slack (not published): a bend wants to open, and a taut stiff cable holds it.",
         f"Plateaus are means from {PLATEAU_FROM:g} s on, or over the last quarter of a shorter run.",
@@ -70,6 +70,12 @@ def _notes(run: TowingRun) -> list[str]:
     if not run.outcome.completed:
         notes.insert(0, run.status)
     return notes
+
+
+def _lateral_note(run: TowingRun) -> str:
+    if np.abs(run.dataset["position"].values[:, :, 2]).max() < 1e-6:
+        return "The run is plane: nothing disturbs it sideways, the lateral displacement is round-off."
+    return "The section's coupling of stretch and twist moves the cable sideways; there are no trough walls yet."
 
 
 def _plateau(time: np.ndarray, values: np.ndarray) -> float:

@@ -108,7 +108,8 @@ def _validated(raw: dict[str, Any], file: str) -> CableTable:
         return CableTable.model_validate(raw)
     except ValidationError as error:
         sentences = [_sentence(problem) for problem in error.errors(include_url=False)]
-        more = f" (and {len(sentences) - 1} more problems)" if len(sentences) > 1 else ""
+        others = len(sentences) - 1
+        more = f" (and {others} more problem{'s' if others > 1 else ''})" if others else ""
         raise SpecError(f"{file}: {sentences[0]}{more}") from None
 
 

@@ -38,7 +38,9 @@ def _marked(unit: str, low: float, high: float, strict: bool) -> BeforeValidator
 
 
 def _counts(raw: Any) -> MarkedNumber:
-    value, status, source, _ = _mark(raw, "1", example="[1, 6]")
+    value, status, source, limits = _mark(raw, "count", example="[1, 6]")
+    if limits:
+        raise SpecError(f"{PLACE}: a count has no range; name the other counts that are possible in the source.")
     counts = value if isinstance(value, list) else [value]
     if not counts or not all(isinstance(n, int) and not isinstance(n, bool) and 1 <= n <= 5000 for n in counts):
         raise SpecError(
@@ -72,7 +74,7 @@ def _mark(raw: Any, unit: str, example: str | None = None) -> tuple[Any, str, st
     limits = raw.get("range", [])
     if not isinstance(limits, list) or len(limits) not in (0, 2):
         raise SpecError(f"{PLACE}.range: expected two values such as [{example}, {example}], found {limits!r}.")
-    if status == "assumed" and not limits and unit != "1":
+    if status == "assumed" and not limits and unit != "count":
         raise SpecError(
             f"{PLACE}: an assumed number needs a range that it may be swept over, such as range = [{example}, {example}]."
         )

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from beam import Scenario, published_section
-from geometry import read_cable
+from geometry import Cable, read_cable
 from geometry.errors import SpecError
 from helicable.screen import progress
 from homogenize import SectionStiffness, homogenize_cable
@@ -44,8 +44,20 @@ def beam_constants(scenario: Scenario, cable: str, cell: SectionStiffness | None
         if cell is None:
             with progress("homogenizing") as tell:
                 cell = homogenize_cable(read_cable(cable), progress=tell).section
-        return BeamConstants(name, cell, f"cell: long cable {cable}, all parts bonded, averaged over the pitch")
+        note = _mismatch(scenario, read_cable(cable))
+        return BeamConstants(name, cell, f"cell: long cable {cable}, all parts bonded, averaged over the pitch{note}")
     return BeamConstants(name, _from_file(Path(name)), f"from the file {name}")
+
+
+def _mismatch(scenario: Scenario, cable: Cable) -> str:
+    """What the scenario keeps for itself when its cable is another one."""
+    mass, diameter = scenario.cable.mass_per_length.value, scenario.cable.diameter.value
+    if abs(mass / cable.mass_per_length - 1) < 0.02 and abs(diameter / cable.outer_diameter - 1) < 0.02:
+        return ""
+    return (
+        f". The scenario's own {mass:.3g} kg/m and {1e3 * diameter:.3g} mm are kept, although {cable.name} has "
+        f"{cable.mass_per_length:.3g} kg/m and {1e3 * cable.outer_diameter:.3g} mm: edit the scenario file"
+    )
 
 
 def _from_file(path: Path) -> SectionStiffness:
@@ -55,12 +67,14 @@ def _from_file(path: Path) -> SectionStiffness:
         )
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
-        return SectionStiffness(np.array(record["section"]["C"], dtype=float), float(record["area"]))
+        C, area = np.array(record["section"]["C"], dtype=float), float(record["area"])
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
         raise SpecError(f"{path} is not a JSON file that can be read: {error}.") from None
-    except SpecError:
-        raise
     except (KeyError, TypeError, ValueError):
+        C, area = np.full((6, 6), np.nan), 0.0
+    if not np.isfinite(C).all():
         raise SpecError(
-            f"{path} does not hold a complete 6x6 section.C and an area; write it with helicable homogenize CABLE --json."
-        ) from None
+            f"{path} does not hold a complete 6x6 section.C and an area (--method cell leaves entries empty); "
+            "write it with helicable homogenize CABLE --json."
+        )
+    return SectionStiffness(C, area)

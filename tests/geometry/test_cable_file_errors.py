@@ -46,6 +46,12 @@ CHANGES = {
     ),
     "source": ('source = "usual tape"', 'source = " "', r"wrap\.wall: the source is missing"),
     "range missing": (', range = ["0.2 mm", "0.5 mm"]', "", r"wrap\.wall: an assumed number needs a range"),
+    "range of a pure number missing": (
+        'nu = { value = 0.34, status = "assumed", range = [0.30, 0.36], source = "solid copper" }',
+        'nu = { value = 0.34, status = "assumed", source = "solid copper" }',
+        r"nu: an assumed number needs a range",
+    ),
+    "range of a count": ("wires = { value = 133,", "wires = { value = 133, range = [1, 2],", "a count has no range"),
     "range of three": ('range = ["0.2 mm", "0.5 mm"]', 'range = ["0.2 mm", "0.5 mm", "1 mm"]', "expected two values"),
     "outside its range": (
         'range = ["0.2 mm", "0.5 mm"]',

@@ -69,13 +69,15 @@ def test_the_long_cable_is_far_stiffer_than_the_published_specimen(homogenized):
     assert 10 * 142e6 < record["E_free_twist"] < record["E_blocked_twist"] < 100 * 142e6
 
 
-def test_the_slice_writes_null_where_it_does_not_compute(tmp_path):
+def test_the_slice_writes_null_where_it_does_not_compute(tmp_path, capsys):
     file = tmp_path / "cell.json"
     assert main(["homogenize", CABLE, "--method", "cell", "--size", "6 mm", "--json", str(file)]) == 0
     record = json.loads(file.read_text())
     assert record["section"]["C"][0][0] is None
     assert record["section"]["C"][2][5] == record["section"]["C"][5][2] == record["section"]["coupling"]
     assert record["G_yoz"] is None
+    assert main(["tow", "intelligent-horizontal", "--constants", str(file)]) == 2
+    assert "complete 6x6" in capsys.readouterr().err
 
 
 def test_mesh_writes_the_file_and_the_contracts_keys(tmp_path):

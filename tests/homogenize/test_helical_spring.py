@@ -59,4 +59,4 @@ def test_reversing_the_lay_changes_only_the_sign_of_the_coupling():
     Z, S = cell(np.radians(30), 10.0, 1.0), cell(np.radians(30), 10.0, 1.0, sign=-1.0)
     np.testing.assert_allclose(np.diag(Z), np.diag(S), rtol=1e-8)
     np.testing.assert_allclose(Z[0, 1], -S[0, 1], rtol=1e-8)
-    assert Z[0, 1] < 0  # a right-handed spring unwinds when it is pulled
+    assert Z[0, 1] < 0  # a free spring winds up when it is pulled; a strand, whose core holds the radius, unwinds
