@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from homogenize import Homogenization
 
+CABLE_TYPE = "mcpt-1.9-3.3"
 E = 142e6
 G_YOZ = 53e6
 G_XOZ = 45e6
@@ -32,7 +33,9 @@ class Row:
 
 
 def modulus_rows(result: Homogenization) -> list[Row]:
-    """Published moduli beside those of the long cable."""
+    """Published moduli beside those of the long cable; none for a cable of another type than the published one."""
+    if not result.cable.name.startswith(CABLE_TYPE):
+        return []
     end = (
         "published: a short specimen pulled through its end-section, so that the soft end layer is measured; "
         "computed: a long cable, whose conductors carry the load. The straight earth conductor alone gives "

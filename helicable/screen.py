@@ -70,6 +70,21 @@ def say(sentence: str) -> None:
     console.print(sentence, soft_wrap=True)
 
 
+def engineering(value: float, unit: str) -> str:
+    """Four digits with an SI prefix.
+
+    >>> engineering(5.198e6, "N"), engineering(70.396, "N m2"), engineering(0.0, "N")
+    ('5.198 MN', '70.40 N m2', '0 N')
+    """
+    size = abs(value)
+    if size == 0 or not math.isfinite(value):
+        return f"{value:g} {unit}"
+    factor, prefix = next((f, p) for f, p in ((1e9, "G"), (1e6, "M"), (1e3, "k"), (0.0, "")) if size >= f)
+    scaled = value / (factor or 1.0)
+    digits = max(0, 3 - math.floor(math.log10(abs(scaled))))
+    return f"{scaled:.{min(digits, 6)}f} {prefix}{unit}"
+
+
 def write_json(path: Path | None, record: Mapping[str, Any]) -> None:
     """Write a record for machines; numbers that are not finite become null, with a note that says which."""
     if path is None:

@@ -64,15 +64,16 @@ def check_cell(mesh: CrossSectionMesh, cell: HelicalCell) -> tuple[Check, ...]:
     symmetry = abs(torque - tension) / np.sqrt(section.C[2, 2] * section.C[5, 5])
     balance = abs(energy - work) / work
     slack = 1 + ROUND_OFF
+    least = f"E A of the central part {lower / 1e6:.4g} MN" if lower > 0 else "no part fills the axis; 0"
     return (
         Check(
             "lower bound",
-            f"E A of the central part {lower / 1e6:.3f} MN <= EA free twist {free / 1e6:.3f} MN <= blocked {blocked / 1e6:.3f} MN",
+            f"{least} <= EA free twist {free / 1e6:.4g} MN <= blocked {blocked / 1e6:.4g} MN",
             lower <= free * slack and free <= blocked * slack,
         ),
         Check(
             "upper bound",
-            f"EA blocked twist {blocked / 1e6:.3f} MN <= {upper / 1e6:.3f} MN (sum of E A {rule / 1e6:.3f} MN plus Poisson mismatch)",
+            f"EA blocked twist {blocked / 1e6:.5g} MN <= {upper / 1e6:.5g} MN (sum of E A {rule / 1e6:.5g} MN plus Poisson mismatch)",
             blocked <= upper * slack,
         ),
         Check(

@@ -25,7 +25,7 @@ from helicable.commands.tow import (
 )
 from helicable.published import modulus_rows
 from helicable.report import Figure, Report, Section, Table
-from helicable.screen import folder, progress, say, write_json
+from helicable.screen import engineering, folder, progress, say, write_json
 from homogenize import Homogenization, PeriodicCell, homogenize_cable, slice_stiffness
 
 SCENARIO = "intelligent-horizontal"
@@ -106,8 +106,8 @@ def _facts(result: Homogenization, run: TowingRun) -> list[tuple[str, str]]:
     return [
         ("outer diameter", f"{1e3 * cable.outer_diameter:.1f} mm"),
         ("mass", f"{cable.mass_per_length:.2f} kg/m"),
-        ("E of a long cable, twist blocked", f"{result.average.E_blocked_twist / 1e9:.2f} GPa"),
-        ("E of a long cable, ends free", f"{result.average.E_free_twist / 1e9:.2f} GPa"),
+        ("E of a long cable, twist blocked", engineering(result.average.E_blocked_twist, "Pa")),
+        ("E of a long cable, ends free", engineering(result.average.E_free_twist, "Pa")),
         ("pull force, steady (published constants)", f"{run.record()['pull_force_plateau']:.0f} N"),
     ]
 
@@ -170,13 +170,13 @@ def _published_section(result: Homogenization, run: TowingRun, other: TowingRun)
         "conductors share the strain, and the straight earth conductor alone sets a lower bound."
     )
     moduli = [
-        (r.quantity, f"{r.published / 1e6:.0f} MPa", f"{r.computed / 1e6:.1f} MPa", f"{r.ratio:.3g}", r.why)
+        (r.quantity, f"{r.published / 1e6:.0f} MPa", engineering(r.computed, "Pa"), f"{r.ratio:.3g}", r.why)
         for r in modulus_rows(result)
     ]
     columns = ("quantity", "published", "computed", "ratio", "why they differ")
     forces = ("quantity", "published", "computed, published constants", "computed, cell constants", "why they differ")
     tables = [
-        Table("Moduli", columns, moduli, right=(1, 2, 3)),
+        *([Table("Moduli", columns, moduli, right=(1, 2, 3))] if moduli else []),
         Table("Forces of the towing run", forces, published_rows(run, other), right=(1, 2, 3)),
     ]
     return Section("Published and computed", text, (), tables)

@@ -13,7 +13,7 @@ from geometry.errors import SpecError
 from geometry.units import read_quantity
 from helicable.options import CableArgument, JsonOption, OutOption, SizeOption
 from helicable.published import modulus_rows
-from helicable.screen import folder, progress, say, table, write_json
+from helicable.screen import engineering, folder, progress, say, table, write_json
 from homogenize import ORDER, Homogenization, PeriodicCell, homogenize_cable, slice_stiffness
 
 INTERFACES = "bonded"
@@ -71,25 +71,22 @@ def constant_rows(result: Homogenization) -> list[tuple[str, str, str]]:
     """Quantity, value and definition, for terminal and report."""
     s, a = result.section, result.average
     lower, upper = result.bounds
+    least = engineering(lower, "N") if lower > 0 else "0"
     return [
-        ("E, twist blocked", f"{a.E_blocked_twist / 1e6:.1f} MPa", "mean stress / mean strain, no twist"),
-        ("E, ends free to twist", f"{a.E_free_twist / 1e6:.1f} MPa", "mean stress / mean strain, no torque"),
-        ("G_yoz = G_xoz", f"{a.G_yoz / 1e6:.2f} MPa", "mean shear stress / mean shear strain, averaged over the pitch"),
-        ("EA, twist blocked", f"{s.EA_blocked_twist / 1e6:.3f} MN", "C33 of the 6x6"),
-        ("EA, ends free to twist", f"{s.EA_free_twist / 1e6:.3f} MN", "C33 - C36^2 / C66"),
+        ("E, twist blocked", engineering(a.E_blocked_twist, "Pa"), "mean stress / mean strain, no twist"),
+        ("E, ends free to twist", engineering(a.E_free_twist, "Pa"), "mean stress / mean strain, no torque"),
+        ("G_yoz = G_xoz", engineering(a.G_yoz, "Pa"), "mean shear stress / mean shear strain, averaged over the pitch"),
+        ("EA, twist blocked", engineering(s.EA_blocked_twist, "N"), "C33 of the 6x6"),
+        ("EA, ends free to twist", engineering(s.EA_free_twist, "N"), "C33 - C36^2 / C66"),
         (
             "bounds of EA",
-            f"{lower / 1e6:.3f} .. {upper / 1e6:.3f} MN",
+            f"{least} .. {engineering(upper, 'N')}",
             "central conductor .. sum of E A with Poisson mismatch",
         ),
-        ("stretch-twist coupling", f"{s.coupling / 1e3:.3f} kN m", "C36: torque per unit stretch"),
-        ("GJ", f"{s.GJ:.2f} N m2", "C66, stretch blocked"),
-        ("EI_x = EI_y", f"{s.EI_x:.2f} N m2", "moment / curvature, constant moment, all bonded"),
-        (
-            "GA_x = GA_y",
-            f"{s.GA_x / 1e3:.1f} kN",
-            "beam shear stiffness: energy of a shear force and the moment it builds up",
-        ),
+        ("stretch-twist coupling", engineering(s.coupling, "N m"), "C36: torque per unit stretch"),
+        ("GJ", engineering(s.GJ, "N m2"), "C66, stretch blocked"),
+        ("EI_x = EI_y", engineering(s.EI_x, "N m2"), "moment / curvature, constant moment, all bonded"),
+        ("GA_x = GA_y", engineering(s.GA_x, "N"), "beam shear: energy of a shear force and of the moment it builds up"),
     ]
 
 
@@ -103,17 +100,16 @@ def show_constants(result: Homogenization, phase: float = 0.0) -> None:
         right=(1,),
     )
     G_yoz, G_xoz = result.average.shear_moduli_at(phase)
-    say(f"At phase {np.degrees(phase):.0f} deg: G_yoz {G_yoz / 1e6:.2f} MPa, G_xoz {G_xoz / 1e6:.2f} MPa.\n")
-    rows = [
-        (r.quantity, f"{r.published / 1e6:.0f}", f"{r.computed / 1e6:.1f}", f"{r.ratio:.2g}")
-        for r in modulus_rows(result)
-    ]
-    table(
-        "Beside the published values (another question: a short specimen)",
-        ("", "published MPa", "computed MPa", "ratio"),
-        rows,
-        right=(1, 2, 3),
-    )
+    say(f"At phase {np.degrees(phase):.0f} deg: G_yoz {engineering(G_yoz, 'Pa')}, G_xoz {engineering(G_xoz, 'Pa')}.\n")
+    published = modulus_rows(result)
+    if published:
+        rows = [
+            (r.quantity, *(f"{v / 1e6:.1f}" for v in (r.published, r.computed)), f"{r.ratio:.2g}") for r in published
+        ]
+        heads = ("", "published MPa", "computed MPa", "ratio")
+        table(
+            "Beside the published values, which answer another question: a short specimen", heads, rows, right=(1, 2, 3)
+        )
     checks = [("holds" if c.holds else "FAILS", c.name, c.sentence) for c in result.checks]
     table("Checks", ("", "check", "found"), checks)
     say(f"{result.cell.field.unknowns} unknowns, {len(result.mesh.cells)} elements, {result.seconds:.1f} s")
@@ -123,10 +119,10 @@ def show_slice(cable: Cable, cell: PeriodicCell) -> None:
     """Print the result of the 3D cell."""
     EA, coupling, GJ = cell.stiffness[0, 0], cell.stiffness[0, 1], cell.stiffness[1, 1]
     rows = [
-        ("EA, twist blocked", f"{EA / 1e6:.3f} MN"),
-        ("EA, ends free to twist", f"{(EA - coupling**2 / GJ) / 1e6:.3f} MN"),
-        ("stretch-twist coupling", f"{coupling / 1e3:.3f} kN m"),
-        ("GJ", f"{GJ:.2f} N m2"),
+        ("EA, twist blocked", engineering(EA, "N")),
+        ("EA, ends free to twist", engineering(EA - coupling**2 / GJ, "N")),
+        ("stretch-twist coupling", engineering(coupling, "N m")),
+        ("GJ", engineering(GJ, "N m2")),
     ]
     table(f"{cable.name}: 3D periodic slice, all parts bonded", ("quantity", "value"), rows, right=(1,))
     say(f"{cell.unknowns} unknowns, {cell.iterations[0]} and {cell.iterations[1]} iterations of conjugate gradients")
@@ -158,7 +154,7 @@ def homogenization_record(result: Homogenization, phase: float = 0.0) -> dict[st
         "at_phase": {"phase": phase, "G_yoz": G_yoz, "G_xoz": G_xoz, "C": result.phase_zero.turned(phase).C},
         "bounds": {"EA_lower": result.bounds[0], "EA_upper": result.bounds[1]},
         "checks": [{"name": c.name, "holds": c.holds, "found": c.sentence} for c in result.checks],
-        "published": {"E": 142e6, "G_yoz": 53e6, "G_xoz": 45e6},
+        "published": {r.quantity: r.published for r in modulus_rows(result)},
         "mesh": {"unknowns": result.cell.field.unknowns, "elements": len(result.mesh.cells)},
         "method": "helical",
         "interface": INTERFACES,
