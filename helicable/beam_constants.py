@@ -37,9 +37,10 @@ def beam_constants(scenario: Scenario, cable: str, cell: SectionStiffness | None
     """
     name = scenario.constants
     if name == "published":
-        return BeamConstants(
-            name, published_section(scenario), "published: E 142, G_yoz 53, G_xoz 45 MPa (short specimen)"
-        )
+        entries = scenario.entries()
+        moduli = {key: entries[f"published_constants.{key}"].text for key in ("E", "G_yoz", "G_xoz")}
+        listed = ", ".join(f"{key} {text}" for key, text in moduli.items())
+        return BeamConstants(name, published_section(scenario), f"published for a short specimen: {listed}")
     if name == "cell":
         if cell is None:
             with progress("homogenizing") as tell:
