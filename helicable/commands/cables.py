@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from geometry import builtin_cables
-from helicable.options import JsonOption
-from helicable.screen import table, write_json
+from helicable.options import JsonOption, OutOption
+from helicable.screen import folder, table, write_json
 
 
-def cables(json: JsonOption = None) -> None:
+def cables(json: JsonOption = None, out: OutOption = None) -> None:
     """List the built-in cables.
 
     Example: `helicable cables`
@@ -28,3 +28,5 @@ def cables(json: JsonOption = None) -> None:
         ],
     }
     write_json(json, record)
+    if out is not None:
+        write_json(folder(out) / "cables.json", record)

@@ -23,6 +23,7 @@ from helicable.commands.tow import (
     towing_json,
     towing_run,
 )
+from helicable.options import JsonOption
 from helicable.published import modulus_rows
 from helicable.report import Figure, Report, Section, Table
 from helicable.screen import engineering, folder, progress, say, write_json
@@ -38,6 +39,7 @@ def demo(
     cable: Annotated[
         str, typer.Option("--cable", metavar="CABLE", help="A built-in cable or a TOML file.")
     ] = REFERENCE_CABLE,
+    json: JsonOption = None,
 ) -> None:
     """Run the whole chain on the real cable: drawing, mesh, cell, section, towing run, comparison with what was published.
 
@@ -61,8 +63,9 @@ def demo(
     run.write(out / "run.nc")
     pictures = draw_run(run, out)
     _write_constants(result, out)
-    write_json(out / "section.json", homogenization_record(result))
-    write_json(out / "tow.json", {**towing_json(run, used), "run": "run.nc"})
+    section, towing = homogenization_record(result), {**towing_json(run, used), "run": "run.nc"}
+    write_json(out / "section.json", section)
+    write_json(out / "tow.json", towing)
     sections = (
         _cable_section(made, drawn),
         _cell_section(result, slice_result, out),
@@ -75,6 +78,8 @@ def demo(
         _facts(result, run),
         sections,
     ).write(out / "report.html")
+    files = sorted(path.name for path in out.iterdir())
+    write_json(json, {"schema": 1, "folder": str(out), "files": files, "homogenize": section, "tow": towing})
     say(f"\n[bold]Report: {page}[/bold] ({time.perf_counter() - start:.0f} s)")
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import typer
 
 from geometry import Cable, read_cable
-from geometry.errors import SpecError
+from geometry.errors import ConvergenceError, SpecError
 from geometry.units import read_quantity
 from helicable.options import CableArgument, JsonOption, OutOption, SizeOption
 from helicable.published import modulus_rows
@@ -56,6 +56,11 @@ def homogenize(
         write_json(folder(out) / "section.json", homogenization_record(result, angle))
         draw_mesh(result.mesh, out / "mesh.png")
         say(f"written: {out / 'section.json'}, {out / 'mesh.png'}")
+    failed = [c.name for c in result.checks if not c.holds]
+    if failed:
+        raise ConvergenceError(
+            f"the result fails the check of {', '.join(failed)}: do not use it, and try another element size."
+        )
 
 
 def _check_choices(method: str, interface: str) -> None:

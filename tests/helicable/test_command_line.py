@@ -167,3 +167,39 @@ def write_campaign(folder):
         (folder / f"{name}.csv").write_text("\n".join(lines) + "\n")
     (folder / "experiments.csv").write_text("\n".join(rows) + "\n")
     return folder
+
+
+def test_a_result_that_fails_a_check_is_exit_code_1(monkeypatch, capsys):
+    """It ran, but the result is not to be used."""
+    import homogenize.homogenization as module
+    from homogenize import Check
+
+    monkeypatch.setattr(module, "check_cell", lambda mesh, cell: (Check("equilibrium", "made to fail", False),))
+    assert main(["homogenize", "example-three-core", "--size", "1.5 mm"]) == 1
+    assert "equilibrium" in capsys.readouterr().err
+
+
+def test_demo_leaves_the_report_and_everything_it_shows(tmp_path, monkeypatch, capsys):
+    """The chain on a short coarse run: one self-contained page, pictures, tables, the run."""
+    import helicable.commands.tow as module
+
+    read = module.read_scenario
+    short = {"cable__elements": 100, "time__duration": "2 s", "drive__ramp_end": "1.5 s"}
+    monkeypatch.setattr(module, "read_scenario", lambda name: read(name).changed(**short))
+    out, file = tmp_path / "demo", tmp_path / "demo.json"
+    assert main(["demo", "--out", str(out), "--json", str(file)]) == 0
+    files = set(json.loads(file.read_text())["files"])
+    assert {
+        "cross-section.png",
+        "constants.csv",
+        "mesh.png",
+        "towing-cable.png",
+        "towing-pull-force.png",
+        "run.nc",
+    } <= files
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert "http" not in page.replace("http-equiv", "").replace("https://doi.org", "")
+    assert page.count("data:image/png;base64,") >= 6
+    titles = [page.index(t) for t in ("The cable</h2>", "From the mesh to the section</h2>", "The towing run</h2>")]
+    assert titles == sorted(titles)
+    assert "142 MPa" in page
