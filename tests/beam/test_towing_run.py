@@ -82,8 +82,8 @@ def test_contact_carries_the_weight(run):
 
 
 def test_energy_is_closed(run):
-    """The balance closes to 1e-3 of the throughput."""
-    assert abs(run.balance_error) < 1e-3
+    """The balance closes to 1e-5 of the throughput."""
+    assert abs(run.balance_error) < 1e-5
 
 
 def test_record_has_the_agreed_keys(run):
