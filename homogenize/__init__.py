@@ -6,13 +6,14 @@ torsion) -> :class:`SectionStiffness`, with :func:`volume_average` for the modul
 """
 
 from homogenize.cell_checks import Check, axial_bounds, check_cell
-from homogenize.helical_cell import HelicalCell, solve_helical_cell
+from homogenize.helical_cell import INTERFACES, HelicalCell, solve_helical_cell
 from homogenize.homogenization import Homogenization, homogenize_cable, slice_stiffness
 from homogenize.periodic_cell import PeriodicCell, solve_periodic_cell
 from homogenize.section_stiffness import ORDER, SectionInertia, SectionStiffness, pitch_average
 from homogenize.volume_average import VolumeAverage, volume_average
 
 __all__ = [
+    "INTERFACES",
     "ORDER",
     "Check",
     "HelicalCell",

@@ -33,11 +33,14 @@ import scipy.sparse.linalg as spla
 from numpy.typing import NDArray
 
 from geometry.cell_mesh import CrossSectionMesh
-from geometry.errors import ConvergenceError
+from geometry.errors import ConvergenceError, SpecError
 from homogenize.section_field import FloatArray, SectionField, section_field
 from homogenize.section_stiffness import SectionStiffness
+from homogenize.sliding_interface import sliding_field
 
 ComplexArray = NDArray[np.complex128]
+
+INTERFACES = ("bonded", "frictionless")
 
 REACTION_LIMIT = 1e-6
 """Largest allowed reaction of the pinned unknowns, relative to the largest nodal force of the same load."""
@@ -54,6 +57,7 @@ class HelicalCell:
     X, V : (3n, 6) warping and axial derivative of the displacement per unit section force
     X_shear, V_shear : (3n, 2) the same per unit mean shear stress xz and yz, see :mod:`homogenize.volume_average`
     reaction : largest relative reaction of the pinned unknowns (a check of equilibrium)
+    interface : "bonded" or "frictionless"
     """
 
     field: SectionField
@@ -63,6 +67,7 @@ class HelicalCell:
     X_shear: FloatArray
     V_shear: FloatArray
     reaction: float
+    interface: str = "bonded"
 
     def strain(self, section_forces: FloatArray) -> FloatArray:
         """Local strain, shape (e, q, 6), order xx yy zz yz xz xy, under section forces (6,) in the rotating frame."""
@@ -80,24 +85,25 @@ class HelicalCell:
 
 @dataclass(frozen=True)
 class _Pencil:
-    """The matrices of the section problem and the pinned gauge."""
+    """The matrices of the section problem."""
 
     E0: sp.csr_array
     skew: sp.csr_array  # E1^T - E1
     E1: sp.csr_array
     E2: sp.csr_array
     Z: FloatArray
-    free: NDArray[np.bool_]
     length: float  # square root of the area: turns a force of uniform strain into a nodal force for comparison
 
 
-def solve_helical_cell(mesh: CrossSectionMesh) -> HelicalCell:
-    """Stiffness of the beam section equivalent to a long helical cable, all interfaces bonded.
+def solve_helical_cell(mesh: CrossSectionMesh, interface: str = "bonded") -> HelicalCell:
+    """Stiffness of the beam section equivalent to a long helical cable.
 
     Parameters
     ----------
     mesh : CrossSectionMesh
         Cross-section with its regions, materials and twist rate.
+    interface : str
+        ``"bonded"``, or ``"frictionless"``: the conductors slide in what surrounds them, without friction and without opening.
 
     Returns
     -------
@@ -106,32 +112,45 @@ def solve_helical_cell(mesh: CrossSectionMesh) -> HelicalCell:
 
     Raises
     ------
+    SpecError
+        If the interface is not known.
     ConvergenceError
         If the linear solution is not in equilibrium, for instance because a part is not connected to the rest.
     """
+    if interface not in INTERFACES:
+        raise SpecError(f'the interface "{interface}" is not known; choose {" or ".join(INTERFACES)}.')
     field = section_field(mesh)
-    E0, E1, E2 = field.matrices()
-    pencil = _Pencil(E0, sp.csr_array(E1.T - E1), E1, E2, field.rigid_motion(), _free_unknowns(field), field.area**0.5)
     tau = mesh.twist_rate
-    axial = _Solver(pencil, 0.0)
-    harmonic = axial if tau == 0.0 else _Solver(pencil, 1j * tau)
+    if interface == "bonded":
+        T, Z, pins = None, field.rigid_motion(), ()
+        gauge = _gauge(field.nodes, np.ones(field.nodes.shape[1], dtype=bool))
+    else:
+        parts = sliding_field(field, mesh)
+        gauge = _gauge(field.nodes, parts.anchored)
+        field, T, Z, pins = parts.field, parts.T, parts.Z, parts.slip_pins
+    E0, E1, E2 = field.matrices()
+    if T is not None:
+        E0, E1, E2 = (sp.csr_array(T.T @ E @ T) for E in (E0, E1, E2))
+    pencil = _Pencil(E0, sp.csr_array(E1.T - E1), E1, E2, Z, field.area**0.5)
+    axial = _Solver(pencil, 0.0, (*gauge, *pins))
+    harmonic = axial if tau == 0.0 else _Solver(pencil, 1j * tau, gauge)
     loads, reaction = _solve_loads(axial, harmonic)
     X, V = _real_columns(loads, pencil.Z)
-    X_shear, V_shear, shear_reaction = _solve_uniform_shear(field, harmonic)
+    X_shear, V_shear, shear_reaction = _solve_uniform_shear(field, harmonic, T)
     C = np.linalg.inv(_compliance(pencil, X, V))
     stiffness = SectionStiffness(0.5 * (C + C.T), field.area)
-    return HelicalCell(field, stiffness, X, V, X_shear, V_shear, max(reaction, shear_reaction))
+    if T is not None:
+        X, V, X_shear, V_shear = (T @ u for u in (X, V, X_shear, V_shear))
+    return HelicalCell(field, stiffness, X, V, X_shear, V_shear, max(reaction, shear_reaction), interface)
 
 
-def _free_unknowns(field: SectionField) -> NDArray[np.bool_]:
-    """All unknowns but six: uX uY uZ at the node nearest the axis, uY uZ at one far along +X from it, uZ at one far along +Y."""
-    X, Y = field.nodes
-    centre = int(np.argmin(X**2 + Y**2))
+def _gauge(nodes: FloatArray, usable: NDArray[np.bool_]) -> tuple[int, ...]:
+    """Six unknowns to pin: uX uY uZ at the node nearest the axis, uY uZ at one far along +X from it, uZ at one far along +Y."""
+    X, Y = np.where(usable, nodes, np.nan)
+    centre = int(np.nanargmin(X**2 + Y**2))
     dX, dY = X - X[centre], Y - Y[centre]
-    right, top = int(np.argmax(dX - np.abs(dY))), int(np.argmax(dY - np.abs(dX)))
-    free = np.ones(field.unknowns, dtype=bool)
-    free[[3 * centre, 3 * centre + 1, 3 * centre + 2, 3 * right + 1, 3 * right + 2, 3 * top + 2]] = False
-    return free
+    right, top = int(np.nanargmax(dX - np.abs(dY))), int(np.nanargmax(dY - np.abs(dX)))
+    return 3 * centre, 3 * centre + 1, 3 * centre + 2, 3 * right + 1, 3 * right + 2, 3 * top + 2
 
 
 CIRCULAR = np.array([1.0, 1j, 0.0]) / np.sqrt(2)
@@ -161,7 +180,9 @@ def _solve_loads(axial: _Solver, harmonic: _Solver) -> tuple[dict[str, tuple], f
     return loads, max(r_N, r_Mz, r_M, r_T)
 
 
-def _solve_uniform_shear(field: SectionField, harmonic: _Solver) -> tuple[FloatArray, FloatArray, float]:
+def _solve_uniform_shear(
+    field: SectionField, harmonic: _Solver, T: sp.csr_array | None
+) -> tuple[FloatArray, FloatArray, float]:
     """Fields of the tractions s.n of a uniform shear stress s on the sides: the moment stays zero, every section is alike.
 
     The nodal forces are int (B_s + lam B_z)^H s; the section carries the shear force A s.
@@ -170,6 +191,8 @@ def _solve_uniform_shear(field: SectionField, harmonic: _Solver) -> tuple[FloatA
     a = CIRCULAR
     stress = np.array([0, 0, 0, a[1], a[0], 0])
     f_s, f_z = (_nodal_forces(field, B, stress) for B in (field.strain_s, field.strain_z))
+    if T is not None:
+        f_s, f_z = T.T @ f_s, T.T @ f_z
     x, y, reaction = harmonic.solve(f_s - lam * f_z, harmonic.pencil.Z.T @ f_z)
     v = lam * x + harmonic.pencil.Z @ y
     inverse = np.linalg.inv(np.array([a[:2], a[:2].conj()]).T)
@@ -188,13 +211,15 @@ def _nodal_forces(field: SectionField, B: FloatArray, stress: NDArray) -> Comple
 class _Solver:
     """Factor of K(lam) = E2 + lam (E1^T - E1) - lam^2 E0 without the pinned unknowns, with the six strains y by Schur complement."""
 
-    def __init__(self, pencil: _Pencil, lam: complex) -> None:
+    def __init__(self, pencil: _Pencil, lam: complex, pinned: tuple[int, ...]) -> None:
         self.pencil, self.lam = pencil, lam
+        self.free = np.ones(pencil.Z.shape[0], dtype=bool)
+        self.free[list(pinned)] = False
         K = pencil.E2 if lam == 0 else pencil.E2 + lam * pencil.skew - lam**2 * pencil.E0
         self.K = sp.csr_array(K)
         R = pencil.E1.T @ pencil.Z - lam * (pencil.E0 @ pencil.Z)
         self.R = R.real if lam == 0 else R
-        free = pencil.free
+        free = self.free
         inner = sp.csc_matrix(self.K[free][:, free])
         try:
             self.factor = spla.splu(
@@ -210,7 +235,7 @@ class _Solver:
 
     def _back(self, rhs: NDArray) -> NDArray:
         out = np.zeros(rhs.shape, dtype=np.result_type(rhs, self.K.dtype))
-        free = self.pencil.free
+        free = self.free
         b = np.ascontiguousarray(rhs[free].astype(out.dtype))
         if np.iscomplexobj(b) and not np.iscomplexobj(self.K.data):
             out[free] = self.factor.solve(np.real(b).copy()) + 1j * self.factor.solve(np.imag(b).copy())

@@ -7,7 +7,8 @@ What is returned, with its definition:
 * ``average``: E and G by formula (3) of Ge et al. (2023), see :mod:`homogenize.volume_average`.
 * ``checks``: bounds, reciprocity, energy and equilibrium, see :mod:`homogenize.cell_checks`.
 
-All interfaces are bonded. A long cable is 10 to 60 times stiffer than the 142 MPa that were published for a short specimen loaded
+Interfaces are bonded, or the conductors slide without friction: the two limits between which friction keeps a real cable.
+A long cable is 10 to 60 times stiffer than the 142 MPa that were published for a short specimen loaded
 through its end-section; the two numbers answer different questions.
 """
 
@@ -48,13 +49,17 @@ class Homogenization:
         return self.cell.stiffness
 
 
-def homogenize_cable(cable: Cable, *, size: float | None = None, progress: Progress | None = None) -> Homogenization:
+def homogenize_cable(
+    cable: Cable, *, interface: str = "bonded", size: float | None = None, progress: Progress | None = None
+) -> Homogenization:
     """Mesh the cross-section, solve the helical cell and derive the constants.
 
     Parameters
     ----------
     cable : Cable
         From :func:`geometry.read_cable`.
+    interface : str
+        ``"bonded"``, or ``"frictionless"``: the conductors slide in what surrounds them, without opening.
     size : float, optional
         Element size [m], a share of the diameter if not given; elements are smaller in thin layers and gaps.
     progress : callable, optional
@@ -66,7 +71,7 @@ def homogenize_cable(cable: Cable, *, size: float | None = None, progress: Progr
 
     Raises
     ------
-    MeshError, ConvergenceError
+    SpecError, MeshError, ConvergenceError
         With a sentence that names the part or the size at fault.
     """
     tell = progress or (lambda fraction, sentence: None)
@@ -74,7 +79,7 @@ def homogenize_cable(cable: Cable, *, size: float | None = None, progress: Progr
     tell(0.0, "meshing the cross-section")
     mesh = cross_section_mesh(cable, size=size)
     tell(0.3, f"solving the helical cell, {3 * len(mesh.points)} unknowns")
-    cell = solve_helical_cell(mesh)
+    cell = solve_helical_cell(mesh, interface)
     tell(0.9, "averaging and checking")
     result = Homogenization(
         cable=cable,

@@ -52,6 +52,8 @@ def demo(
     drawn = _draw_cable(made, out)
     with progress("2D helical cell") as tell:
         result = homogenize_cable(made, progress=tell)
+    with progress("the same with sliding conductors") as tell:
+        sliding = homogenize_cable(made, interface="frictionless", progress=tell)
     draw_mesh(result.mesh, out / "mesh.png")
     show_constants(result)
     with progress("3D periodic slice, as a check") as tell:
@@ -68,7 +70,7 @@ def demo(
     write_json(out / "tow.json", towing)
     sections = (
         _cable_section(made, drawn),
-        _cell_section(result, slice_result, out),
+        _cell_section(result, sliding, slice_result, out),
         _published_section(result, run, stiff),
         _towing_section(run, used, stiff, pictures),
     )
@@ -126,11 +128,12 @@ def _cable_section(cable: Cable, figures: list[Figure]) -> Section:
     return Section("The cable", "\n\n".join(cable.notes), figures, tables)
 
 
-def _cell_section(result: Homogenization, cell: PeriodicCell, out: Path) -> Section:
+def _cell_section(result: Homogenization, sliding: Homogenization, cell: PeriodicCell, out: Path) -> Section:
     s = result.section
     text = (
         "In a frame that turns with the cable the fields do not depend on z, so that tension and torsion are one real problem on "
-        "the cross-section, bending and shear one complex problem. All parts are bonded.\n\n"
+        "the cross-section, bending and shear one complex problem. Friction keeps a real cable between two limits: all parts "
+        "bonded, and conductors that slide freely.\n\n"
         "A cable whose lay has one hand has no single E: with the twist blocked it is stiffer than with ends that may rotate."
     )
     pairs = [
@@ -143,15 +146,20 @@ def _cell_section(result: Homogenization, cell: PeriodicCell, out: Path) -> Sect
     order = ("gamma_x", "gamma_y", "epsilon", "kappa_x", "kappa_y", "tau")
     rows = [(name, *row) for name, row in zip(order, C, strict=True)]
     tables = [
-        Table("Constants of the long cable", ("quantity", "value", "definition"), constant_rows(result), right=(1,)),
         Table(
-            "6x6 section stiffness, averaged over the pitch (N, N m, N m2)",
+            "Constants of the long cable",
+            ("quantity", "all parts bonded", "conductors sliding", "definition"),
+            [(a[0], a[1], b[1], a[2]) for a, b in zip(constant_rows(result), constant_rows(sliding), strict=True)],
+            right=(1, 2),
+        ),
+        Table(
+            "6x6 section stiffness, bonded, averaged over the pitch (N, N m, N m2)",
             ("", *order),
             rows,
             right=tuple(range(1, 7)),
         ),
         Table(
-            "The same by a 3D periodic slice",
+            "Tension and torsion, bonded, by a 3D periodic slice",
             ("quantity", "2D cell", f"3D slice, {cell.unknowns} unknowns", "difference %"),
             agreement,
             right=(1, 2, 3),

@@ -14,9 +14,8 @@ from geometry.units import read_quantity
 from helicable.options import CableArgument, JsonOption, OutOption, SizeOption
 from helicable.published import modulus_rows
 from helicable.screen import engineering, folder, progress, say, table, write_json
-from homogenize import ORDER, Homogenization, PeriodicCell, homogenize_cable, slice_stiffness
+from homogenize import INTERFACES, ORDER, Homogenization, PeriodicCell, homogenize_cable, slice_stiffness
 
-INTERFACES = "bonded"
 METHODS = ("helical", "cell")
 
 
@@ -25,7 +24,9 @@ def homogenize(
     method: Annotated[
         str, typer.Option(help="`helical`: 2D cell, the whole 6x6; `cell`: 3D periodic slice, tension and torsion.")
     ] = "helical",
-    interface: Annotated[str, typer.Option(help="How the parts hold together: `bonded`.")] = INTERFACES,
+    interface: Annotated[
+        str, typer.Option(help="`bonded`; or `frictionless`: conductors slide, without opening.")
+    ] = "bonded",
     size: SizeOption = None,
     phase: Annotated[str, typer.Option(help="Angle of the section for the values at a phase.")] = "0 deg",
     json: JsonOption = None,
@@ -47,7 +48,7 @@ def homogenize(
         write_json(json, slice_record(made, cell, time.perf_counter() - start))
         return
     with progress("2D helical cell") as tell:
-        result = homogenize_cable(made, size=element, progress=tell)
+        result = homogenize_cable(made, interface=interface, size=element, progress=tell)
     show_constants(result, angle)
     write_json(json, homogenization_record(result, angle))
     if out is not None:
@@ -66,10 +67,15 @@ def homogenize(
 def _check_choices(method: str, interface: str) -> None:
     if method not in METHODS:
         raise SpecError(f'--method "{method}" is not known; choose helical or cell.')
-    if interface != INTERFACES:
-        raise SpecError(
-            f'--interface "{interface}" is not available: this version bonds all parts; use --interface bonded.'
-        )
+    if interface not in INTERFACES:
+        raise SpecError(f'--interface "{interface}" is not known; choose {" or ".join(INTERFACES)}.')
+    if method == "cell" and interface != "bonded":
+        raise SpecError("the 3D slice bonds all parts; use --method helical for --interface frictionless.")
+
+
+def held(result: Homogenization) -> str:
+    """How the parts hold together, in words."""
+    return "all parts bonded" if result.cell.interface == "bonded" else "conductors sliding without friction"
 
 
 def constant_rows(result: Homogenization) -> list[tuple[str, str, str]]:
@@ -90,7 +96,7 @@ def constant_rows(result: Homogenization) -> list[tuple[str, str, str]]:
         ),
         ("stretch-twist coupling", engineering(s.coupling, "N m"), "C36: torque per unit stretch"),
         ("GJ", engineering(s.GJ, "N m2"), "C66, stretch blocked"),
-        ("EI_x = EI_y", engineering(s.EI_x, "N m2"), "moment / curvature, constant moment, all bonded"),
+        ("EI_x = EI_y", engineering(s.EI_x, "N m2"), "moment / curvature, constant moment"),
         ("GA_x = GA_y", engineering(s.GA_x, "N"), "beam shear: energy of a shear force and of the moment it builds up"),
     ]
 
@@ -99,7 +105,7 @@ def show_constants(result: Homogenization, phase: float = 0.0) -> None:
     """Print constants, published values and checks."""
     cable = result.cable
     table(
-        f"{cable.name}: long cable, all parts bonded; moduli refer to {1e6 * result.section.area:.0f} mm2",
+        f"{cable.name}: long cable, {held(result)}; moduli refer to {1e6 * result.section.area:.0f} mm2",
         ("quantity", "value", "definition"),
         constant_rows(result),
         right=(1,),
@@ -162,10 +168,10 @@ def homogenization_record(result: Homogenization, phase: float = 0.0) -> dict[st
         "published": {r.quantity: r.published for r in modulus_rows(result)},
         "mesh": {"unknowns": result.cell.field.unknowns, "elements": len(result.mesh.cells)},
         "method": "helical",
-        "interface": INTERFACES,
+        "interface": result.cell.interface,
         "seconds": result.seconds,
         "notes": [
-            "long cable, all parts bonded; the published values belong to a short specimen and are not a target",
+            f"long cable, {held(result)}; the published values belong to a short specimen and are not a target",
             "GA is the beam's shear stiffness by energy; G_yoz and G_xoz are volume averages (formula 3)",
         ],
     }
@@ -196,7 +202,7 @@ def slice_record(cable: Cable, cell: PeriodicCell, seconds: float) -> dict[str, 
         "bounds": {"EA_lower": None, "EA_upper": None},
         "mesh": {"unknowns": cell.unknowns, "elements": None},
         "method": "cell",
-        "interface": INTERFACES,
+        "interface": "bonded",
         "iterations": list(cell.iterations),
         "seconds": seconds,
         "notes": ["the 3D slice serves tension and torsion; bending, shear and bounds come from --method helical"],

@@ -69,6 +69,17 @@ def test_the_long_cable_is_far_stiffer_than_the_published_specimen(homogenized):
     assert 10 * 142e6 < record["E_free_twist"] < record["E_blocked_twist"] < 100 * 142e6
 
 
+def test_sliding_conductors_are_a_choice(homogenized, tmp_path):
+    """Sliding lowers EA, GJ and EI, and the file says which interface it is."""
+    file = tmp_path / "sliding.json"
+    assert main(["homogenize", CABLE, "--size", "4 mm", "--interface", "frictionless", "--json", str(file)]) == 0
+    bonded, sliding = json.loads(homogenized.read_text()), json.loads(file.read_text())
+    assert (bonded["interface"], sliding["interface"]) == ("bonded", "frictionless")
+    for key in ("EA_blocked_twist", "EA_free_twist", "GJ", "EI_x", "EI_y"):
+        assert sliding["section"][key] < bonded["section"][key], key
+    assert all(check["holds"] for check in sliding["checks"])
+
+
 def test_the_slice_writes_null_where_it_does_not_compute(tmp_path, capsys):
     file = tmp_path / "cell.json"
     assert main(["homogenize", CABLE, "--method", "cell", "--size", "6 mm", "--json", str(file)]) == 0
@@ -111,7 +122,8 @@ BAD = [
     (["homogenize", CABLE, "--size", "-1 mm"], "size"),
     (["homogenize", CABLE, "--size", "1 kg"], "--size"),
     (["homogenize", CABLE, "--method", "magic"], "magic"),
-    (["homogenize", CABLE, "--interface", "frictionless"], "bonded"),
+    (["homogenize", CABLE, "--interface", "glued"], "frictionless"),
+    (["homogenize", CABLE, "--method", "cell", "--interface", "frictionless"], "helical"),
     (["mesh", CABLE, "--elements", "0"], "element"),
     (["mesh", CABLE, "--elements", "1000000000"], "element"),
     (["tow"], "--list"),
