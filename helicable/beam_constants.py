@@ -40,7 +40,7 @@ def beam_constants(scenario: Scenario, cable: str, cell: SectionStiffness | None
         entries = scenario.entries()
         moduli = {key: entries[f"published_constants.{key}"].text for key in ("E", "G_yoz", "G_xoz")}
         listed = ", ".join(f"{key} {text}" for key, text in moduli.items())
-        return BeamConstants(name, published_section(scenario), f"published for a short specimen: {listed}")
+        return BeamConstants(name, published_section(scenario), f"published for a finite specimen: {listed}")
     if name == "cell":
         if cell is None:
             with progress("homogenizing") as tell:

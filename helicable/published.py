@@ -37,12 +37,12 @@ def modulus_rows(result: Homogenization) -> list[Row]:
     if not result.cable.name.startswith(CABLE_TYPE):
         return []
     end = (
-        "published: a short specimen pulled through its end-section, so that the soft end layer is measured; "
+        "published: a finite specimen of unstated length, probably one in which the soft layer at its loaded end-section is measured; "
         "computed: a long cable, whose conductors carry the load. The straight earth conductor alone gives "
         f"{result.bounds[0] / result.section.area / 1e6:.0f} MPa, a lower bound for any long cable"
     )
     shear = (
-        "published: transverse load on a short specimen, bending included; computed: mean shear stress over mean shear strain "
+        "published: transverse load on that specimen, bending included; computed: mean shear stress over mean shear strain "
         "of a long cable, which is that of the rubber between the conductors"
     )
     return [

@@ -8,7 +8,7 @@ What is returned, with its definition:
 * ``checks``: bounds, reciprocity, energy and equilibrium, see :mod:`homogenize.cell_checks`.
 
 Interfaces are bonded, or the conductors slide without friction: the two limits between which friction keeps a real cable.
-A long cable is 10 to 60 times stiffer than the 142 MPa that were published for a short specimen loaded
+A long cable is 10 to 60 times stiffer than the 142 MPa that were published for a finite specimen loaded
 through its end-section; the two numbers answer different questions.
 """
 

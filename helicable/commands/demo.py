@@ -178,7 +178,7 @@ def _cell_section(result: Homogenization, sliding: Homogenization, cell: Periodi
 
 def _published_section(result: Homogenization, run: TowingRun, other: TowingRun) -> Section:
     text = (
-        "The published moduli come from a short specimen pulled and pushed through its end-section (Ge et al., PLoS ONE 18(2) "
+        "The published moduli come from a finite specimen with one end fixed and the force on the other (Ge et al., PLoS ONE 18(2) "
         "e0281136, 2023). They are shown beside the long-cable values and are not a target for them: for a long cable the "
         "conductors share the strain, and the straight earth conductor alone sets a lower bound."
     )

@@ -119,7 +119,10 @@ def show_constants(result: Homogenization, phase: float = 0.0) -> None:
         ]
         heads = ("", "published MPa", "computed MPa", "ratio")
         table(
-            "Beside the published values, which answer another question: a short specimen", heads, rows, right=(1, 2, 3)
+            "Beside the published values, which answer another question: a finite specimen",
+            heads,
+            rows,
+            right=(1, 2, 3),
         )
     checks = [("holds" if c.holds else "FAILS", c.name, c.sentence) for c in result.checks]
     table("Checks", ("", "check", "found"), checks)
@@ -171,7 +174,7 @@ def homogenization_record(result: Homogenization, phase: float = 0.0) -> dict[st
         "interface": result.cell.interface,
         "seconds": result.seconds,
         "notes": [
-            f"long cable, {held(result)}; the published values belong to a short specimen and are not a target",
+            f"long cable, {held(result)}; the published values belong to a finite specimen and are not a target",
             "GA is the beam's shear stiffness by energy; G_yoz and G_xoz are volume averages (formula 3)",
         ],
     }
