@@ -7,7 +7,8 @@ What is returned, with its definition:
 * ``average``: E and G by formula (3) of Ge et al. (2023), see :mod:`homogenize.volume_average`.
 * ``checks``: bounds, reciprocity, energy and equilibrium, see :mod:`homogenize.cell_checks`.
 
-Interfaces are bonded, or the conductors slide without friction: the two limits between which friction keeps a real cable.
+Interfaces are bonded, the stiffest a cable can be in tension, torsion and bending, or the conductors slide without friction.
+Cores and screens that slide as well would make it softer still.
 A long cable is 10 to 60 times stiffer than the 142 MPa that were published for a finite specimen loaded
 through its end-section; the two numbers answer different questions.
 """

@@ -132,8 +132,8 @@ def _cell_section(result: Homogenization, sliding: Homogenization, cell: Periodi
     s = result.section
     text = (
         "In a frame that turns with the cable the fields do not depend on z, so that tension and torsion are one real problem on "
-        "the cross-section, bending and shear one complex problem. Friction keeps a real cable between two limits: all parts "
-        "bonded, and conductors that slide freely.\n\n"
+        "the cross-section, bending and shear one complex problem. Bonded is the stiffest a cable can be in tension, "
+        "torsion and bending; sliding conductors make it softer, sliding cores (not modelled) would make it softer still.\n\n"
         "A cable whose lay has one hand has no single E: with the twist blocked it is stiffer than with ends that may rotate."
     )
     pairs = [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -29,7 +29,7 @@ def mesh(
     """
     made = read_cable(cable)
     if out.suffix.lower() in CAD_FORMATS:
-        _solids(made, out)
+        write_json(json, _solids(made, out))
         return
     start = time.perf_counter()
     with progress("meshing") as tell:
@@ -58,8 +58,8 @@ def mesh(
     write_json(json, record)
 
 
-def _solids(cable: Cable, out: Path) -> None:
-    """Half a lay of the cable as solids, or four diameters of a straight one."""
+def _solids(cable: Cable, out: Path) -> dict[str, Any]:
+    """Half a lay of the cable as solids, or four diameters of a straight one; the record for machines."""
     length = 4 * cable.outer_diameter if cable.lay is None else cable.lay / 2
     with progress("sweeping solids") as tell:
         tell(0.1, f"{1e3 * length:.0f} mm of {cable.name}")
@@ -69,3 +69,5 @@ def _solids(cable: Cable, out: Path) -> None:
         f"{cable.name}: solids of {1e3 * length:.0f} mm", ("part", "volume mm3", "closed form mm3"), rows, right=(1, 2)
     )
     say(f"written: {out} (millimetres)")
+    volumes = {s.name: {"volume": s.volume, "closed_form": s.closed_form} for s in solids}
+    return {"schema": 1, "cable": cable.name, "length": length, "solids": volumes, "file": str(out)}

@@ -116,6 +116,16 @@ def test_mesh_writes_the_file_and_the_contracts_keys(tmp_path):
     assert file.stat().st_size > 10_000
 
 
+def test_mesh_writes_solids_for_cad(tmp_path):
+    """A name that ends in .brep asks for swept solids; their volumes are those of Pappus."""
+    file, record = tmp_path / "cable.brep", tmp_path / "solids.json"
+    assert main(["mesh", "example-three-core", "--out", str(file), "--json", str(record)]) == 0
+    solids = json.loads(record.read_text())["solids"]
+    assert file.stat().st_size > 10_000
+    assert all(s["volume"] == pytest.approx(s["closed_form"], rel=1e-4) for s in solids.values())
+    assert "sheath" in solids
+
+
 BAD = [
     (["homogenize", "no-such-cable"], "no-such-cable"),
     (["homogenize", CABLE, "--size", "1.5"], "--size"),
