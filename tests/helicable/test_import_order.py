@@ -8,7 +8,7 @@ import sys
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PACKAGES = ("geometry", "homogenize", "beam", "compare", "helicable")
+PACKAGES = ("geometry", "homogenize", "beam", "effects", "compare", "helicable")
 
 
 def test_import_linter_contracts_hold():

@@ -1,0 +1,254 @@
+r"""What an effect is: a named piece of physics, of the rig or of a sensor, that the linear model leaves out.
+
+A bench record is read through four stages, in this order,
+
+.. math::  y = \text{bias} + \text{filter}\bigl[ K\,(\varepsilon + \textstyle\sum_j a_j\, c_j(\varepsilon;\theta_j))\bigr],
+           \qquad \varepsilon = \text{fixture}(\text{path} / L)
+
+K is the linear stiffness (EA, GJ, EI, or that of the cantilever), epsilon the path per length that the section sees. An
+effect acts in one stage. Its *shape* parameters theta enter nonlinearly; its *strengths* a multiply columns c that are
+measured in strain, so that K a c is the load that the effect adds. With strengths of zero, or, in a fixture or a
+filter, with shapes of zero, the linear model is left exactly as it was.
+
+An effect has one or more forms: the plain one first, richer ones after it. A richer form is the same physics with more
+freedom (more elements, more relaxation times), never another effect.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+EffectKind = Literal["physics", "rig", "sensor"]
+Stage = Literal["section", "cross", "fixture", "filter", "bias"]
+STRAIN_UNITS = {"tension": "1", "torsion": "rad/m", "bending": "1/m", "shear": "1"}
+
+
+@dataclass(frozen=True)
+class BenchPath:
+    """What one specimen goes through in one record, SI.
+
+    Attributes
+    ----------
+    kind : str
+        ``tension``, ``torsion``, ``bending`` or ``shear``.
+    strain : (n,) array
+        Path per length: strain, twist [rad/m], curvature [1/m], deflection over length of a cantilever.
+    time : (n,) array or None
+        Instants [s], starting at the first sample; None for a loop without a clock.
+    length : float or None
+        Specimen length [m].
+    tension : (n,) array or None
+        Axial tension that grips the layers [N]: of the conditions, in a tension test the calibrated linear force.
+    temperature : float or None
+        [K].
+    direction : str or None
+        ``x+``, ``x-``, ``y+`` or ``y-`` of a shear or bending test.
+    largest : float
+        Largest \\|strain\\| of all experiments of this kind, the scale of strain-like shapes.
+    typical_tension, typical_temperature : float
+        Mean over the experiments of this kind [N], [K]; 0 and 293.15 where nothing was recorded.
+    """
+
+    kind: str
+    strain: Array = field(repr=False)
+    time: Array | None = field(default=None, repr=False)
+    length: float | None = None
+    tension: Array | None = field(default=None, repr=False)
+    temperature: float | None = None
+    direction: str | None = None
+    largest: float = 1.0
+    typical_tension: float = 0.0
+    typical_temperature: float = 293.15
+
+    def with_strain(self, strain: Array) -> BenchPath:
+        """The same record with another strain."""
+        return replace(self, strain=strain)
+
+
+Starts = Callable[[Sequence[BenchPath]], Array]
+"""Values of a shape parameter from which a search begins, for the experiments at hand: shape (m,), increasing."""
+
+
+def of_strain(low: float, high: float, m: int) -> Starts:
+    """m values, evenly spaced in the logarithm, from `low` to `high` times the largest strain."""
+    return lambda paths: np.geomspace(low, high, m) * max(p.largest for p in paths)
+
+
+def of_time(m: int, low: float = 0.5, high: float = 1.0) -> Starts:
+    """m values from `low` times the shortest mean sampling interval to `high` times the longest record."""
+
+    def values(paths: Sequence[BenchPath]) -> Array:
+        times = [p.time for p in paths if p.time is not None and len(p.time) > 1]
+        if not times:
+            return np.ones(1)
+        spans = [float(t[-1] - t[0]) for t in times]
+        shortest = min(span / (len(t) - 1) for span, t in zip(spans, times, strict=True))
+        return np.geomspace(low * shortest, high * max(spans), m)
+
+    return values
+
+
+def of_length(low: float, high: float, m: int) -> Starts:
+    """m values from `low` to `high` times the shortest specimen length."""
+
+    def values(paths: Sequence[BenchPath]) -> Array:
+        lengths = [p.length for p in paths if p.length is not None]
+        return np.geomspace(low, high, m) * (min(lengths) if lengths else 1.0)
+
+    return values
+
+
+def of_play(low: float, high: float, m: int) -> Starts:
+    """m lengths (of a play, of a slip) from `low` to `high` times the largest strain times the shortest length."""
+
+    def values(paths: Sequence[BenchPath]) -> Array:
+        lengths = [p.length for p in paths if p.length is not None]
+        return np.geomspace(low, high, m) * max(p.largest for p in paths) * (min(lengths) if lengths else 1.0)
+
+    return values
+
+
+def of_values(*values: float) -> Starts:
+    """The given values, whatever the experiments."""
+    return lambda _paths: np.array(values, dtype=float)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One number of an effect.
+
+    Attributes
+    ----------
+    name, unit, meaning : str
+        SI unit; ``strain`` stands for the unit of the path per length of the kind.
+    low, high : float
+        Physical bounds: outside them the parameter has no meaning.
+    plausible : (float, float)
+        What cables and rigs usually show; outside it a finding loses a tier.
+    source : str
+        Where the plausible range is from.
+    starts : Starts or None
+        Only for shapes: where a search begins.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    low: float = 0.0
+    high: float = np.inf
+    plausible: tuple[float, float] = (0.0, np.inf)
+    source: str = ""
+    starts: Starts | None = field(default=None, repr=False)
+
+    def unit_for(self, kind: str) -> str:
+        """SI unit in an experiment of that kind."""
+        return self.unit.replace("strain", STRAIN_UNITS.get(kind, "1"))
+
+
+Respond = Callable[..., Array]
+Advance = Callable[..., tuple[Array, Array]]
+
+
+@dataclass(frozen=True)
+class Form:
+    """One mathematical form of an effect.
+
+    Attributes
+    ----------
+    name : str
+        For reports, such as ``one slip element``.
+    stage : Stage
+        ``section``: `respond(path, *shape)` gives the columns c (n, k) [strain] on the load channel.
+        ``cross``: the same on the other measured load (torque of a tension test, force of a torsion test), as strain.
+        ``fixture``: `respond(path, *shape)` gives the strain (n,) that the section sees.
+        ``filter``: `respond(signal, time, *shape)` gives what the sensor reads of a signal (n, k), linear in it.
+        ``bias``: `respond(path, *shape)` gives columns (n, k) that are added to a channel, of size about 1.
+    shape, strength : tuple of Parameter
+        Nonlinear parameters; linear ones, one per column. Fixtures and filters have no strengths.
+    advance : callable, optional
+        Only section forms: ``advance(strain, before, dt, tension, temperature, state, *shape)`` takes n material points
+        one step on and returns their columns (n, k) and new state (n, memory); arrays (n,) but for `dt`. Starting from
+        zeros it gives the columns of `respond` sample by sample; it is what a rod calls.
+    memory : int
+        State variables per material point.
+    """
+
+    name: str
+    stage: Stage
+    respond: Respond = field(repr=False)
+    shape: tuple[Parameter, ...] = ()
+    strength: tuple[Parameter, ...] = ()
+    advance: Advance | None = field(default=None, repr=False)
+    memory: int = 0
+
+
+@dataclass(frozen=True)
+class Effect:
+    """A named effect.
+
+    Attributes
+    ----------
+    name : str
+        As in the contract, such as ``interlayer-friction``.
+    kind : EffectKind
+        ``physics``, ``rig`` or ``sensor``.
+    title, equation, source, needs, signature : str
+        One line; the law in plain text; where it is from; what data it takes; what it looks like.
+    kinds : tuple of str
+        Kinds of experiment in which it can act.
+    forms : tuple of Form
+        The plain one first.
+    why_untestable : callable
+        Given the paths of the experiments of one kind, the sentence why they cannot show it, or None if they may.
+    """
+
+    name: str
+    kind: EffectKind
+    title: str
+    equation: str
+    source: str
+    needs: str
+    signature: str
+    kinds: tuple[str, ...]
+    forms: tuple[Form, ...]
+    why_untestable: Callable[[Sequence[BenchPath]], str | None] = field(default=lambda _paths: None, repr=False)
+
+    @property
+    def stage(self) -> Stage:
+        """Stage of the plain form."""
+        return self.forms[0].stage
+
+
+@dataclass(frozen=True)
+class ActiveEffect:
+    """An effect that is switched on in a model: in which kind of experiment, for sensors on which channel, how strong.
+
+    Attributes
+    ----------
+    effect, form : Effect, Form
+        What acts and in which form.
+    kind : str
+        Kind of experiment.
+    channel : str or None
+        Channel of a sensor effect.
+    shape, strength : tuple of float
+        Values of the form's parameters, SI; strengths multiply the linear stiffness, biases are in the unit of the channel.
+    """
+
+    effect: Effect
+    form: Form
+    kind: str
+    channel: str | None = None
+    shape: tuple[float, ...] = ()
+    strength: tuple[float, ...] = ()
+
+    @property
+    def neutral(self) -> bool:
+        """Whether it leaves the linear model as it is."""
+        return not any(self.strength if self.form.strength else self.shape)
