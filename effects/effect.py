@@ -23,10 +23,13 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.errors import InputError
+
 Array = NDArray[np.float64]
 EffectKind = Literal["physics", "rig", "sensor"]
 Stage = Literal["section", "cross", "fixture", "filter", "bias"]
 STRAIN_UNITS = {"tension": "1", "torsion": "rad/m", "bending": "1/m", "shear": "1"}
+ARM_UNITS = {"tension": "m", "torsion": "1/m"}
 
 
 @dataclass(frozen=True)
@@ -126,7 +129,8 @@ class Parameter:
     Attributes
     ----------
     name, unit, meaning : str
-        SI unit; ``strain`` stands for the unit of the path per length of the kind.
+        SI unit; ``strain`` stands for the unit of the path per length of the kind, ``arm`` for that of the other load
+        over this one (torque over force in a tension test, force over torque in a torsion test).
     low, high : float
         Physical bounds: outside them the parameter has no meaning.
     plausible : (float, float)
@@ -148,7 +152,7 @@ class Parameter:
 
     def unit_for(self, kind: str) -> str:
         """SI unit in an experiment of that kind."""
-        return self.unit.replace("strain", STRAIN_UNITS.get(kind, "1"))
+        return self.unit.replace("strain", STRAIN_UNITS.get(kind, "1")).replace("arm", ARM_UNITS.get(kind, "1"))
 
 
 Respond = Callable[..., Array]
@@ -172,9 +176,11 @@ class Form:
     shape, strength : tuple of Parameter
         Nonlinear parameters; linear ones, one per column. Fixtures and filters have no strengths.
     advance : callable, optional
-        Only section forms: ``advance(strain, before, dt, tension, temperature, state, *shape)`` takes n material points
-        one step on and returns their columns (n, k) and new state (n, memory); arrays (n,) but for `dt`. Starting from
-        zeros it gives the columns of `respond` sample by sample; it is what a rod calls.
+        Only section and cross forms: ``advance(strain, before, dt, tension, temperature, state, *shape,
+        reference=UNKNOWN)`` takes n material points one step on and returns their columns (n, k) and new state
+        (n, memory); arrays (n,) in SI but for `dt`. `reference` is a path of the experiments that the effect was fitted
+        to; its largest strain, typical tension and temperature, and direction are read, its records are not. Starting
+        from zeros (the first sample with a `dt` of 0) it gives the columns of `respond` sample by sample.
     memory : int
         State variables per material point.
     """
@@ -186,6 +192,10 @@ class Form:
     strength: tuple[Parameter, ...] = ()
     advance: Advance | None = field(default=None, repr=False)
     memory: int = 0
+
+
+UNKNOWN = BenchPath("tension", np.zeros(0))
+"""A reference that knows nothing: scales of 1, no typical tension, 20 degC."""
 
 
 @dataclass(frozen=True)
@@ -239,6 +249,8 @@ class ActiveEffect:
         Channel of a sensor effect.
     shape, strength : tuple of float
         Values of the form's parameters, SI; strengths multiply the linear stiffness, biases are in the unit of the channel.
+    reference : BenchPath
+        A path of the experiments that it was fitted to: the scales on which the strengths rest.
     """
 
     effect: Effect
@@ -247,6 +259,29 @@ class ActiveEffect:
     channel: str | None = None
     shape: tuple[float, ...] = ()
     strength: tuple[float, ...] = ()
+    reference: BenchPath = field(default=UNKNOWN, repr=False)
+
+    def advance(
+        self, strain: Array, before: Array, dt: float, tension: Array, temperature: Array, state: Array
+    ) -> tuple[Array, Array]:
+        """Strain (n,) that the effect adds at n material points after one step, and their new state (n, memory).
+
+        What a rod calls: the load of the effect is this strain times the linear stiffness. A channel of its own (stage
+        ``cross``) is left to the caller.
+
+        Raises
+        ------
+        InputError
+            If the form acts outside the section, where a material point does not see it.
+        """
+        if self.form.advance is None:
+            raise InputError(
+                f"{self.effect.name} acts in the {self.form.stage}, not at a material point of the section."
+            )
+        columns, state = self.form.advance(
+            strain, before, dt, tension, temperature, state, *self.shape, reference=self.reference
+        )
+        return columns @ np.asarray(self.strength, dtype=float), state
 
     @property
     def neutral(self) -> bool:
