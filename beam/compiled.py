@@ -4,7 +4,7 @@ Every kernel is plain Python as well: without numba, or with ``NUMBA_DISABLE_JIT
 give the same numbers, some hundred times slower. Kernels run on one core; parallel work is done over whole runs.
 
 numba renews the code on disk when the kernel's own file changes, but a kernel also contains the code of kernels in other
-files. Here it is renewed whenever any file of this package that holds a kernel has changed.
+files. Here it is renewed whenever any file that holds a kernel has changed in this package or in the kernel's own.
 """
 
 from __future__ import annotations
@@ -23,11 +23,14 @@ except ImportError:  # the uncompiled path
     _numba = None
 
 
-@lru_cache(maxsize=1)
-def source_stamp() -> str:
-    """Digest of the files of this package that hold kernels."""
+_HERE = Path(__file__).parent
+
+
+@lru_cache(maxsize=8)
+def source_stamp(folder: Path = _HERE) -> str:
+    """Digest of the files of this package, and of `folder`, that hold kernels."""
     digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.glob("*.py")):
+    for path in sorted({*_HERE.glob("*.py"), *folder.glob("*.py")}):
         text = path.read_bytes()
         if b"@kernel" in text:
             digest.update(text)
@@ -44,5 +47,5 @@ def kernel(function: Function) -> Function:
     compiled: Any = _numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(function)
     stored: Any = getattr(getattr(compiled, "_cache", None), "_cache_file", None)
     if hasattr(stored, "_source_stamp"):
-        stored._source_stamp = source_stamp()
+        stored._source_stamp = source_stamp(Path(function.__code__.co_filename).parent)  # type: ignore[attr-defined]
     return cast(Function, compiled)

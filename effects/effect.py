@@ -29,6 +29,7 @@ Array = NDArray[np.float64]
 EffectKind = Literal["physics", "rig", "sensor"]
 Stage = Literal["section", "cross", "fixture", "filter", "bias"]
 STRAIN_UNITS = {"tension": "1", "torsion": "rad/m", "bending": "1/m", "shear": "1"}
+PLAY_UNITS = {"tension": "m", "torsion": "rad", "bending": "rad", "shear": "m"}
 ARM_UNITS = {"tension": "m", "torsion": "1/m"}
 
 
