@@ -51,7 +51,7 @@ def comparison_record(comparison: Comparison) -> dict[str, Any]:
         ],
     }
     lost: list[str] = []
-    content = _finite(content, "", lost)
+    content = finite_content(content, "", lost)
     reasons = [f"{path} is null: the data leave no finite number for it." for path in lost]
     return {**content, "notes": [*comparison.notes, *reasons]}
 
@@ -102,12 +102,12 @@ def _empty_row(gap: NotCompared) -> dict[str, Any]:
     }
 
 
-def _finite(value: Any, path: str, lost: list[str]) -> Any:
+def finite_content(value: Any, path: str, lost: list[str]) -> Any:
     """The same content with every number that is not finite replaced by None, its place appended to `lost`."""
     if isinstance(value, dict):
-        return {k: _finite(v, f"{path}.{k}" if path else k, lost) for k, v in value.items()}
+        return {k: finite_content(v, f"{path}.{k}" if path else k, lost) for k, v in value.items()}
     if isinstance(value, list):
-        return [_finite(v, f"{path}[{i}]", lost) for i, v in enumerate(value)]
+        return [finite_content(v, f"{path}[{i}]", lost) for i, v in enumerate(value)]
     if isinstance(value, float) and not math.isfinite(value):
         lost.append(path)
         return None

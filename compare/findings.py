@@ -14,7 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.bench_model import BenchModel
+from compare.campaign import Campaign
 from compare.comparison import Comparison
+from compare.noise_floor import NoiseModel
 
 Array = NDArray[np.float64]
 Verdict = Literal["none", "identified", "family-identified", "confusable", "unknown"]
@@ -98,6 +100,41 @@ class Separation:
     size: tuple[str, ...]
     confusion: Array = field(repr=False)
     confounded: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Check:
+    """What can be said about a campaign before any effect is looked for: ``compare.testability.check``.
+
+    Attributes
+    ----------
+    campaign : Campaign
+        As it was read; sealed experiments are not in it.
+    noise : NoiseModel
+        Covariance of every channel, and what it was learnt from.
+    noise_notes : tuple of str
+        Sentences on noise that had to be assumed and on repeats that could not be used.
+    separation : Separation
+        Of the testable effects from the base and from each other.
+    untestable : tuple of Untestable
+        What these experiments cannot show, and why.
+    smallest_seen : mapping of str to str
+        Per testable effect the smallest size that these data would show.
+    """
+
+    campaign: Campaign = field(repr=False)
+    noise: NoiseModel = field(repr=False)
+    noise_notes: tuple[str, ...]
+    separation: Separation
+    untestable: tuple[Untestable, ...]
+    smallest_seen: Mapping[str, str]
+    notes: tuple[str, ...]
+
+    def record(self) -> dict[str, Any]:
+        """JSON of ``helicable check``."""
+        from compare.findings_record import check_record
+
+        return check_record(self)
 
 
 @dataclass(frozen=True)

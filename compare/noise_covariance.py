@@ -1,11 +1,11 @@
 r"""Covariance of the noise of one measured channel: correlated samples, random gain and offset of a record.
 
-.. math::  C = s^2 A(\varphi) + g^2\, m m^T + b^2\, 1 1^T , \qquad A_{ij} = \varphi^{|i-j|}
+.. math::  C = s^2 A(\varphi) + w^2 I + g^2\, m m^T + b^2\, 1 1^T , \qquad A_{ij} = \varphi^{|i-j|}
 
-m is the signal. s is the scatter of a sample, phi its correlation from sample to sample (AR(1)), g the relative
-scatter of the gain and b the scatter of the offset between records (another specimen, another mounting). The inverse
-of A is tridiagonal, so that A^-1 = W^T W with W x = (x_0, (x_t - phi x_{t-1}) / sqrt(1 - phi^2)); the two other terms
-are a rank-2 update (Woodbury). Everything costs O(n).
+m is the signal. s is the scatter of a sample that is correlated by phi from sample to sample (AR(1)), w that of its
+white part, g the relative scatter of the gain and b the scatter of the offset between records (another specimen,
+another mounting). The first two are made white by the innovations of a Kalman filter, the two others are a rank-2
+update (Woodbury). Everything costs O(n).
 
 Source: general linear mixed models with AR(1) errors, e.g. Pinheiro & Bates, Mixed-Effects Models in S and S-PLUS,
 Springer 2000, ch. 5, doi 10.1007/b98882.
@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from compare.innovations import innovations
 from geometry.errors import InputError
 
 Vector = NDArray[np.float64]
@@ -30,7 +31,7 @@ class NoiseCovariance:
     Parameters
     ----------
     s : float
-        Standard deviation of a sample [unit of the channel].
+        Standard deviation of the correlated part of a sample [unit of the channel].
     phi : float
         Correlation of neighbouring samples, -1 < phi < 1.
     gain : float
@@ -39,6 +40,8 @@ class NoiseCovariance:
         Standard deviation of the offset of a record [unit of the channel].
     contrasts, samples : int
         How many signal-free contrasts of repeats it was learnt from, and how many samples they have; 0 if it was not.
+    white : float
+        Standard deviation of the white part of a sample [unit of the channel]; with phi = 0 all of s is white as well.
 
     Examples
     --------
@@ -55,6 +58,7 @@ class NoiseCovariance:
     source: str = ""
     contrasts: int = 0
     samples: int = 0
+    white: float = 0.0
 
     def __post_init__(self) -> None:
         if not (
@@ -62,7 +66,8 @@ class NoiseCovariance:
             and abs(self.phi) < 1
             and self.gain >= 0
             and self.offset >= 0
-            and np.isfinite([self.s, self.gain, self.offset]).all()
+            and self.white >= 0
+            and np.isfinite([self.s, self.gain, self.offset, self.white]).all()
         ):
             raise InputError(
                 f"no noise covariance has s = {self.s:g}, phi = {self.phi:g}, gain = "
@@ -71,7 +76,12 @@ class NoiseCovariance:
 
     def floor(self, signal: Vector) -> float:
         """Root of the expected mean square of the noise of one record with that signal."""
-        return float(np.sqrt(self.s**2 + self.gain**2 * np.mean(signal**2) + self.offset**2))
+        return float(np.sqrt(self.sample_variance + self.gain**2 * np.mean(signal**2) + self.offset**2))
+
+    @property
+    def sample_variance(self) -> float:
+        """Variance of one sample within a record, s^2 + w^2."""
+        return self.s**2 + self.white**2
 
     def whiten(self, x: Vector, signal: Vector) -> Vector:
         """K x with K^T K = C^-1, which turns noise into independent samples of variance one; x: (n,) or (n, k)."""
@@ -82,8 +92,8 @@ class NoiseCovariance:
     def log_determinant(self, signal: Vector) -> float:
         """ln det C."""
         _, shrink = self._update(signal)
-        n = len(signal)
-        return float(2 * n * np.log(self.s) + (n - 1) * np.log1p(-(self.phi**2)) - 2 * np.log1p(-shrink).sum())
+        of_samples = innovations(np.empty((len(signal), 0)), self.s**2, self.phi, self.white**2, np.empty((len(signal), 0)))
+        return float(of_samples - 2 * np.log1p(-shrink).sum())
 
     def log_likelihood(self, noise: Vector, signal: Vector) -> float:
         """Gaussian log density of one record's noise."""
@@ -93,14 +103,16 @@ class NoiseCovariance:
     def mean_std(self, signal: Vector) -> float:
         """Standard deviation of the mean of the noise over one record: sqrt(1^T C 1) / n."""
         n = len(signal)
-        variance = self.s**2 * self._mean_correlation(n) + self.gain**2 * np.mean(signal) ** 2 + self.offset**2
+        of_samples = self.s**2 * self._mean_correlation(n) + self.white**2 / n
+        variance = of_samples + self.gain**2 * np.mean(signal) ** 2 + self.offset**2
         return float(np.sqrt(variance))
 
     def whiten_samples(self, x: Vector) -> Vector:
-        """W x / s: white if there were no scatter of gain and offset; x of shape (n,) or (n, k)."""
-        white = x / self.s
-        white[1:] = (white[1:] - self.phi * (x[:-1] / self.s)) / np.sqrt(1 - self.phi**2)
-        return white
+        """The samples made white, as if there were no scatter of gain and offset; x of shape (n,) or (n, k)."""
+        columns = np.ascontiguousarray(x[:, None] if x.ndim == 1 else x, dtype=float)
+        white = np.empty_like(columns)
+        innovations(columns, self.s**2, self.phi, self.white**2, white)
+        return white[:, 0] if x.ndim == 1 else white
 
     def _update(self, signal: Vector) -> tuple[Vector, Vector]:
         """Q (n, k) and 1 - 1/sqrt(1 + S^2) of the rank-2 update in whitened coordinates: W U = Q S V^T."""
