@@ -131,7 +131,8 @@ class Parameter:
     ----------
     name, unit, meaning : str
         SI unit; ``strain`` stands for the unit of the path per length of the kind, ``arm`` for that of the other load
-        over this one (torque over force in a tension test, force over torque in a torsion test).
+        over this one (torque over force in a tension test, force over torque in a torsion test), ``play`` for that of
+        the path itself, ``channel`` for that of the channel of a sensor.
     low, high : float
         Physical bounds: outside them the parameter has no meaning.
     plausible : (float, float)
@@ -153,7 +154,10 @@ class Parameter:
 
     def unit_for(self, kind: str) -> str:
         """SI unit in an experiment of that kind."""
-        return self.unit.replace("strain", STRAIN_UNITS.get(kind, "1")).replace("arm", ARM_UNITS.get(kind, "1"))
+        unit = self.unit
+        for token, units in (("strain", STRAIN_UNITS), ("arm", ARM_UNITS), ("play", PLAY_UNITS)):
+            unit = unit.replace(token, units.get(kind, "1"))
+        return unit
 
 
 Respond = Callable[..., Array]
