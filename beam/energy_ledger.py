@@ -2,7 +2,8 @@ r"""Where the energy of a run goes, kept step by step.
 
 Stored energies (kinetic, elastic, gravity, contact penalty, friction bristles) are states. Losses and work are sums over
 the steps by the trapezoidal rule: damping in the cable and in the contacts, sliding friction, and the work of the drives,
-that is of prescribed supports and moving surfaces. The balance
+that is of prescribed supports and moving surfaces. What a section law with internal state takes up counts as a loss; the
+part of it that the law only stores comes back as a negative one (:mod:`beam.section_memory`). The balance
 
 .. math:: \Delta(\text{stored}) + \text{losses} - \text{work} = \text{error}
 
@@ -23,7 +24,13 @@ Array = NDArray[np.float64]
 
 STORED = ("kinetic", "elastic", "gravity", "contact", "bristle")
 SPENT = ("damping_loss", "contact_damping_loss", "friction_loss")
+SECTION_LAW = "section_law"
 ENERGIES = (*STORED, *SPENT, "drive_work")
+
+
+def energy_names(model: RodModel) -> tuple[str, ...]:
+    """Entries of the account of `model`, the work of the drives last; one more if it has a section law."""
+    return ENERGIES if model.law is None else (*STORED, *SPENT, SECTION_LAW, "drive_work")
 
 
 @dataclass
@@ -31,13 +38,16 @@ class EnergyLedger:
     """Running account of one model; :meth:`start` once, :meth:`step` after every accepted step."""
 
     model: RodModel
-    totals: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ENERGIES, 0.0))
+    totals: dict[str, float] = field(default_factory=dict)
     throughput: float = 0.0
     _first: float = 0.0
     _friction_work: float = 0.0
     _bristle_first: float = 0.0
     _powers: Array = field(default_factory=lambda: np.zeros(4))
     _last: Array = field(default_factory=lambda: np.zeros(len(STORED)))
+
+    def __post_init__(self) -> None:
+        self.totals = dict.fromkeys(energy_names(self.model), 0.0)
 
     def start(self, q: Array, v: Array, a: Array, forces: Forces) -> None:
         """Take the state at the beginning."""
@@ -57,16 +67,19 @@ class EnergyLedger:
         self.totals["contact_damping_loss"] += contact
         self._friction_work += friction
         self.totals["friction_loss"] = self._friction_work - (forces.bristle - self._bristle_first)
+        law = forces.law_work
+        if self.model.law is not None:
+            self.totals[SECTION_LAW] += law
         self.totals["drive_work"] += drive
         stored = self._stored()
         exchanged = 0.5 * float(np.abs(stored - self._last).sum())
         self._last = stored
-        self.throughput += max(abs(drive), exchanged, abs(damping) + abs(contact) + abs(friction))
+        self.throughput += max(abs(drive), exchanged, abs(damping) + abs(contact) + abs(friction) + abs(law))
 
     @property
     def balance_error(self) -> float:
         """(stored + lost - work) over the throughput; positive if energy appeared from nowhere."""
-        lost = sum(self.totals[name] for name in SPENT)
+        lost = sum(self.totals[name] for name in SPENT) + self.totals.get(SECTION_LAW, 0.0)
         error = self._stored_sum() - self._first + lost - self.totals["drive_work"]
         return error / self.throughput if self.throughput > 0 else 0.0
 

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from beam.energy_ledger import EnergyLedger
 from beam.linear_solve import Factor
 from beam.rod_model import Blocks, Forces, RodModel
+from beam.section_memory import LONG, SectionMemory
 from beam.status import Outcome, Status
 from geometry.errors import SpecError
 
@@ -82,6 +83,9 @@ class Integrator:
         Initial state; the acceleration follows from the equations of motion.
     anchors : list of array, optional
         Friction anchors, from :func:`beam.statics.equilibrium`.
+    memory : SectionMemory, optional
+        Of the model's section law, from there as well; if not given, the rod is taken from the stress-free shape to `q`
+        and left there for a long time. A step that is not accepted leaves it as it was.
     """
 
     def __init__(
@@ -91,6 +95,7 @@ class Integrator:
         v: Array | None = None,
         anchors: list[Array] | None = None,
         settings: StepSettings | None = None,
+        memory: SectionMemory | None = None,
     ) -> None:
         self.model = model
         self.settings = settings or StepSettings()
@@ -105,7 +110,10 @@ class Integrator:
         if start is None:
             start = model.forces(0.0, self.q, self.v, model.fresh_anchors(), friction=False).moved
         self.anchors = [x.copy() for x in start]
-        self.forces = model.forces(0.0, self.q, self.v, self.anchors)
+        self.forces = model.forces(
+            0.0, self.q, self.v, self.anchors, memory=memory, dt=LONG if memory is None else None
+        )
+        self.memory = self.forces.memory
         self.deepest: tuple[float, str] = (0.0, "")
         self._last_iterations = 0
         self._worst = ""
@@ -165,7 +173,7 @@ class Integrator:
             self.outcome = Outcome(Status.ROTATION_TOO_LARGE, f"{fault} Time {t:.4f} s.")
             return False
         self.q, self.v, self.a, self.t, self.forces = q, v, a, t, forces
-        self.anchors = forces.moved
+        self.anchors, self.memory = forces.moved, forces.memory
         self._ticks += size
         self.counters.steps += 1
         if forces.penetration > self.deepest[0]:
@@ -184,7 +192,7 @@ class Integrator:
         start = last = np.inf
         fresh = 0
         for k in range(self.settings.iterations):
-            forces = model.forces(t, q, v, self.anchors)
+            forces = model.forces(t, q, v, self.anchors, memory=self.memory, dt=h)
             residual = model.inertia((1 - am) * a)
             residual += (1 - af) * forces.F
             residual += old
@@ -218,7 +226,7 @@ class Integrator:
     def _refresh(self, t: float, h: float, q: Array, v: Array) -> None:
         am, af, gamma, beta = self.settings.coefficients
         blocks = Blocks.zeros(self.model.rod.nodes)
-        self.model.forces(t, q, v, self.anchors, blocks=blocks, factor=gamma / (beta * h))
+        self.model.forces(t, q, v, self.anchors, blocks=blocks, factor=gamma / (beta * h), memory=self.memory, dt=h)
         for part in (blocks.D, blocks.U, blocks.L):
             part *= 1 - af
         self.model.add_mass((1 - am) / (beta * h * h), blocks)

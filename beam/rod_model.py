@@ -13,6 +13,15 @@ from beam.element import DOF, add_mass, inertia_force, internal_force, internal_
 from beam.hermite import gauss_points
 from beam.rod import GAUSS_W, GAUSS_X, Rod
 from beam.rotation_vector import LARGEST_ROTATION
+from beam.section_law import SectionLaw
+from beam.section_memory import (
+    LONG,
+    SectionMemory,
+    law_step,
+    section_force_on_nodes,
+    section_force_tangent,
+    strains,
+)
 from beam.surface import Surface, Travel
 from geometry.errors import SpecError
 
@@ -40,7 +49,10 @@ class Support:
 
 @dataclass
 class Forces:
-    """Everything that one evaluation of F yields; energies in J, powers in W."""
+    """Everything that one evaluation of F yields; energies in J, powers in W.
+
+    With a section law: the `memory` to commit if the step is accepted, and the work that the law takes up in it [J].
+    """
 
     F: Array
     S: Array
@@ -57,6 +69,8 @@ class Forces:
     surface_power: float = 0.0
     penetration: float = 0.0
     penetration_at: str = ""
+    memory: SectionMemory | None = None
+    law_work: float = 0.0
 
 
 @dataclass
@@ -89,6 +103,8 @@ class RodModel:
     load : (n + 1, 12) array, optional
         Constant nodal forces besides the weight: N on r, N m on r' and theta (for rotation about a fixed axis).
     surfaces : sequence of Plane or Cylinder
+    law : SectionLaw, optional
+        Section forces with internal state, added to the linear law of the rod.
     """
 
     rod: Rod
@@ -97,6 +113,7 @@ class RodModel:
     gravity: ArrayLike = (0.0, 0.0, 0.0)
     load: Array | None = None
     surfaces: Sequence[Surface] = ()
+    law: SectionLaw | None = None
     free: NDArray[np.bool_] = field(init=False)
     weight: Array = field(init=False)
 
@@ -118,6 +135,12 @@ class RodModel:
         """Friction anchors before any contact, one array (n, points, 3) per surface."""
         return [np.full((self.rod.lengths.size, s.points, 3), np.nan) for s in self.surfaces]
 
+    def fresh_memory(self) -> SectionMemory | None:
+        """Memory of a rod that was never strained; None without a section law."""
+        if self.law is None:
+            return None
+        return SectionMemory.fresh(self.law, self.rod.lengths.size, GAUSS_X.size)
+
     def prescribe(self, t: float, q: Array, v: Array, a: Array) -> None:
         """Set held fields to their prescribed values at time `t`, in place."""
         held = ~self.free
@@ -131,8 +154,13 @@ class RodModel:
     def forces(
         self, t: float, q: Array, v: Array, anchors: list[Array], friction: bool = True,
         blocks: Blocks | None = None, factor: float = 0.0,
+        memory: SectionMemory | None = None, dt: float | None = LONG,
     ) -> Forces:  # fmt: skip
-        """F(q, v, t); with `blocks`, also dF/dq + factor dF/dv into them."""
+        """F(q, v, t); with `blocks`, also dF/dq + factor dF/dv into them.
+
+        A section law goes in the time `dt` [s] from `memory` (fresh if not given) to the strains of `q`; with None, the
+        forces that it has in `memory` are taken as they are.
+        """
         rod = self.rod
         nodes, n = rod.nodes, rod.lengths.size
         out = Forces(
@@ -146,6 +174,8 @@ class RodModel:
             for part in (blocks.D, blocks.U, blocks.L):
                 part[:] = 0.0
             internal_tangent(q, v, factor, rod.lengths, GAUSS_X, GAUSS_W, *law, blocks.D, blocks.U, blocks.L)
+        if self.law is not None:
+            self._add_law(self.law, q, blocks, memory, dt, out)
         report = np.empty(7)
         for surface, (xs, ws), anchor in zip(self.surfaces, self._points, anchors, strict=True):
             p = surface.parameters(t)
@@ -160,6 +190,20 @@ class RodModel:
             out.moved.append(moved)
             out.cones.append(cone)
         return out
+
+    def _add_law(
+        self, law: SectionLaw, q: Array, blocks: Blocks | None, memory: SectionMemory | None, dt: float | None, out: Forces
+    ) -> None:
+        lengths = self.rod.lengths
+        memory = memory or SectionMemory.fresh(law, lengths.size, GAUSS_X.size)
+        step = law_step(law, memory, strains(q, lengths, GAUSS_X, self.rod.E0), dt, blocks is not None)
+        S = step.memory.S
+        section_force_on_nodes(q, lengths, GAUSS_X, GAUSS_W, S, out.F)
+        out.S += S
+        out.memory = step.memory
+        out.law_work = float(np.sum(GAUSS_W * lengths[:, None] * step.work))
+        if blocks is not None and step.T is not None:
+            section_force_tangent(q, lengths, GAUSS_X, GAUSS_W, S, step.T, blocks.D, blocks.U, blocks.L)
 
     @staticmethod
     def _add(out: Forces, report: Array, name: str) -> None:

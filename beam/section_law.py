@@ -11,11 +11,15 @@ times in seconds; at rest they have no effect.
 
 The rod's axes are e1 along the cable, e2 = x and e3 = y of the section, whereas :class:`SectionStiffness` has z along the
 cable and the order (gamma_x, gamma_y, epsilon, kappa_x, kappa_y, tau). :func:`rod_order` is the one place that maps them.
+
+Physics with a memory (friction between layers, plasticity, relaxation) comes as a :class:`SectionLaw`, whose forces are added
+to the linear ones.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +31,46 @@ Array = NDArray[np.float64]
 
 SECTION_OF_ROD = (2, 0, 1, 5, 3, 4)
 """Entry k of the rod's order (1: stretch, 2: shear x, 3: shear y, twist, curvature x, y) in the section's order."""
+
+
+class SectionLaw(Protocol):
+    """Section forces with internal state, on top of the linear law.
+
+    Attributes
+    ----------
+    memory : int
+        State variables per Gauss point; zeros stand for a section that was never strained.
+    """
+
+    @property
+    def memory(self) -> int: ...
+
+    def advance(
+        self, E: Array, before: Array, dt: float, state: Array, tangent: bool
+    ) -> tuple[Array, Array | None, Array]:
+        """Take all Gauss points of a rod one step on; must not change its arguments.
+
+        Parameters
+        ----------
+        E, before : (n, 6) array
+            Strains in the rod's order at the end and at the start of the step, minus those of the stress-free shape.
+        dt : float
+            Length of the step [s].
+        state : (n, memory) array
+            At the start of the step.
+        tangent : bool
+            Whether the derivative is wanted.
+
+        Returns
+        -------
+        S : (n, 6) array
+            Section forces to add [N, N m].
+        T : (n, 6, 6) array or None
+            dS/dE.
+        state : (n, memory) array
+            At the end of the step.
+        """
+        ...
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,9 @@ r"""Static equilibrium F(q) = 0 by pseudo-transient continuation.
 
 Every step solves M (q_{k+1} - q_k)/h^2 + F(q_{k+1}) = 0 with the velocity forgotten afterwards, so that the rod creeps
 downhill in its energy and cannot swing. h grows while Newton's iteration is easy and is cut where it is not; for large h
-the step is Newton's method on the static problem itself. Contact is frictionless until equilibrium is reached; then the
-friction is switched on, whose bristles start unloaded.
+the step is Newton's method on the static problem itself. A section law with internal state sees one straight step of
+strain from the state in `memory` to the equilibrium, not the way there: one call is one load step. Contact is frictionless
+until equilibrium is reached; then the friction is switched on, whose bristles start unloaded.
 
 Source: C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508-523, doi 10.1137/S0036142996304796.
 """
@@ -11,13 +12,16 @@ Source: C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508-523, doi 1
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beam.linear_solve import Factor
 from beam.rod_model import Blocks, Forces, RodModel
+from beam.section_memory import LONG, SectionMemory
 from beam.status import Outcome, Status
 
 Array = NDArray[np.float64]
@@ -44,7 +48,7 @@ class StaticSettings:
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """A static shape `q`, its friction anchors, the residual that is left, and how it ended."""
+    """A static shape `q`, its friction anchors, the residual that is left, how it ended, the state of the section law."""
 
     q: Array
     anchors: list[Array]
@@ -53,10 +57,17 @@ class Equilibrium:
     residual_moment: float
     iterations: int
     outcome: Outcome
+    memory: SectionMemory | None = None
 
 
 def equilibrium(
-    model: RodModel, q: Array | None = None, *, t: float = 0.0, settings: StaticSettings | None = None
+    model: RodModel,
+    q: Array | None = None,
+    *,
+    t: float = 0.0,
+    settings: StaticSettings | None = None,
+    memory: SectionMemory | None = None,
+    duration: float = LONG,
 ) -> Equilibrium:
     """Shape of `model` at rest, with the supports where they are at time `t`.
 
@@ -67,11 +78,16 @@ def equilibrium(
         Where to start; the model's starting shape if not given.
     t : float
         Time at which prescribed motions are taken [s].
+    memory : SectionMemory, optional
+        State of the model's section law before this load step; that of a rod that was never strained if not given.
+    duration : float
+        Length of the load step [s], for laws that know time.
 
     Returns
     -------
     Equilibrium
-        With the residual in N and N m. If the outcome is not completed, `q` is the last shape that was reached.
+        With the residual in N and N m, and the `memory` to hand to the next load step or to the integrator. If the
+        outcome is not completed, `q` is the last shape that was reached and `memory` the one before the load step.
     """
     settings = settings or StaticSettings()
     q = (model.q0 if q is None else q).copy()
@@ -80,7 +96,8 @@ def equilibrium(
     anchors = model.fresh_anchors()
     h, count = settings.first_step, 0
     outcome = Outcome(Status.NOT_CONVERGED, "The number of steps is used up.")
-    current = model.forces(t, q, rest, anchors, friction=False)
+    forces_of = partial(model.forces, memory=memory, dt=duration)
+    current = forces_of(t, q, rest, anchors, friction=False)
     previous = np.inf
     for _ in range(settings.most_steps):
         force, moment = _residual(model, current)
@@ -90,7 +107,7 @@ def equilibrium(
         if force <= settings.force_tolerance and moment <= settings.moment_tolerance:
             outcome = Outcome()
             break
-        trial, forces, used = _step(model, t, q, anchors, h, settings)
+        trial, forces, used = _step(model, forces_of, t, q, anchors, h, settings)
         count += used
         if trial is None or forces is None:
             h /= 4
@@ -108,19 +125,21 @@ def equilibrium(
         previous = force
     logger.info("statics: %d iterations, last residual %.2e N", count, previous)
     force, moment = _residual(model, current)
-    current = model.forces(t, q, rest, anchors, friction=True)
-    return Equilibrium(q, current.moved, current, force, moment, count, outcome)
+    current = forces_of(t, q, rest, anchors, friction=True)
+    kept = current.memory if outcome.completed else memory
+    return Equilibrium(q, current.moved, current, force, moment, count, outcome, kept)
 
 
 def _step(
-    model: RodModel, t: float, q: Array, anchors: list[Array], h: float, settings: StaticSettings
-) -> tuple[Array | None, Forces | None, int]:
+    model: RodModel, forces_of: Callable[..., Forces], t: float, q: Array, anchors: list[Array], h: float,
+    settings: StaticSettings,
+) -> tuple[Array | None, Forces | None, int]:  # fmt: skip
     """One pseudo step by Newton's method; None if it does not converge."""
     trial, rest = q.copy(), np.zeros_like(q)
     start = np.inf
     for k in range(settings.iterations):
         blocks = Blocks.zeros(model.rod.nodes)
-        forces = model.forces(t, trial, rest, anchors, friction=False, blocks=blocks)
+        forces = forces_of(t, trial, rest, anchors, friction=False, blocks=blocks)
         residual = np.where(model.free, forces.F + model.inertia((trial - q) / h**2), 0.0)
         size = float(np.linalg.norm(residual))
         if k == 0:

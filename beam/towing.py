@@ -22,7 +22,7 @@ from beam.incline_formula import STANDARD_GRAVITY
 from beam.rod import Rod
 from beam.rod_model import RodModel, Support
 from beam.scenario import Scenario, published_section
-from beam.section_law import DampingTimes
+from beam.section_law import DampingTimes, SectionLaw
 from beam.shape import strands_and_arcs
 from beam.statics import equilibrium
 from beam.status import Outcome
@@ -70,6 +70,7 @@ def tow(
     *,
     progress: Progress | None = None,
     settings: StepSettings | None = None,
+    law: SectionLaw | None = None,
 ) -> TowingRun:
     """Static start, then the towing run.
 
@@ -86,6 +87,9 @@ def tow(
     settings : StepSettings, optional
         Replaces the scenario's largest step and the default solver settings. Its largest step is shortened so that it
         divides the output interval.
+    law : SectionLaw, optional
+        Section forces with internal state on top of the linear section, such as `effects.rod_law.RodLaw`. The cable is
+        taken to have been bent from straight into the starting shape, and to have rested there.
 
     Returns
     -------
@@ -103,11 +107,12 @@ def tow(
     tell = progress or (lambda fraction, sentence: None)
     tell(0.0, "looking for the equilibrium to start from")
     model = towing_model(scenario, section, inertia)
+    model.law = law
     start = equilibrium(model)
     start.outcome.require_success()
     logger.info("static residual %.1e N, %.1e N m", start.residual_force, start.residual_moment)
     settings, per_frame, frames = _steps(scenario, settings)
-    motion = Integrator(model, start.q, anchors=start.anchors, settings=settings)
+    motion = Integrator(model, start.q, anchors=start.anchors, settings=settings, memory=start.memory)
     record = Frames(model)
     record.take(motion)
     for k in range(frames):

@@ -18,7 +18,6 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from beam.energy_ledger import ENERGIES
 from beam.towing_record import PLATEAU_FROM, PUBLISHED_NODES
 
 if TYPE_CHECKING:
@@ -131,12 +130,12 @@ def energy_figure(run: TowingRun) -> Figure:
     data = run.dataset
     time = data["time"].values
     energy = data["energy"].values - data["energy"].values[0]
-    names = {name: name.replace("_", " ") for name in ENERGIES}
+    names = [str(name).replace("_", " ") for name in data["source"].values]
     figure, ax = plt.subplots(figsize=(8, 4.2), layout="constrained")
-    colours = ("#56B4E9", "#0072B2", "#999999", "#E69F00", "#F0E442", "#8856A7", "#CC79A7", "#D55E00")
-    for k, name in enumerate(ENERGIES[:-1]):
-        ax.plot(time, energy[:, k], label=names[name], color=colours[k], linewidth=1.5)
-    ax.plot(time, energy[:, -1], label=names[ENERGIES[-1]], color="black", linewidth=1.8)
+    colours = ("#56B4E9", "#0072B2", "#999999", "#E69F00", "#F0E442", "#8856A7", "#CC79A7", "#D55E00", "#8C510A")
+    for k, name in enumerate(names[:-1]):
+        ax.plot(time, energy[:, k], label=name, color=colours[k], linewidth=1.5)
+    ax.plot(time, energy[:, -1], label=names[-1], color="black", linewidth=1.8)
     ax.plot(time, energy[:, :-1].sum(axis=1), "--", color="#009E73", label="sum of all but the work", linewidth=1.4)
     ax.set(xlabel="time [s]", ylabel="energy since the start [J]")
     ax.set_title(

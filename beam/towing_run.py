@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.energy_ledger import ENERGIES
+from beam.energy_ledger import energy_names
 from beam.generalized_alpha import Counters, Integrator
 from beam.incline_formula import towing_force_down, towing_force_up
 from beam.rod_model import RodModel
@@ -78,7 +78,7 @@ class Frames:
         reaction = motion.reaction
         self.ends["pull_force"].append(reaction[-1, 0:3].copy())
         self.ends["supply_reaction"].append(reaction[0, 0:3].copy())
-        self.energies.append([float(motion.ledger.totals[name]) for name in ENERGIES])
+        self.energies.append([float(motion.ledger.totals[name]) for name in energy_names(self.model)])
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ class TowingRun:
             "s": ("node", frames.model.rod.s, {"units": "m", "long_name": "arc length from the supply, unstretched"}),
             "axis": ("axis", ["x", "y", "z"], {"long_name": "global axes: travel, normal to the trough, across"}),
             "section_axis": ("section_axis", ["1", "2", "3"], {"long_name": "axes of the section, 1 along the cable"}),
-            "source": ("source", list(ENERGIES), {"long_name": "where the energy is or went"}),
+            "source": ("source", list(energy_names(frames.model)), {"long_name": "where the energy is or went"}),
         }
         return xr.Dataset(data, coords, self._attributes())
 
