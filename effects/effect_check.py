@@ -1,0 +1,102 @@
+"""Does an effect keep the promises of its stage? Its laws are tried on a short loading path.
+
+A section law gives one finite column per strength; a fixture gives a strain, a filter a signal, and both leave their
+input exactly as it is when all their shapes are zero. A law that says it has no memory gives the same columns when the
+samples come in another order.
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from effects.effect import Array, BenchPath, Effect, Form
+
+_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+KINDS = ("tension", "torsion", "bending", "shear")
+STAGES = ("section", "cross", "fixture", "filter", "bias")
+
+
+def probe(kind: str = "torsion") -> BenchPath:
+    """A short record to try a law on: growing cycles of 1 % with a clock, a length and all conditions."""
+    time = np.linspace(0.0, 60.0, 61)
+    strain = 0.01 * np.sin(time / 5.0) * (0.3 + 0.7 * time / 60.0)
+    return BenchPath(
+        kind, strain, time, 2.0, 1000.0 + 100.0 * np.cos(time / 7.0), 300.0, None, 0.01, 1000.0, 293.15
+    )  # fmt: skip
+
+
+def defect(effect: Effect) -> str | None:
+    """The sentence that says what is wrong with an effect, or None."""
+    if not isinstance(effect.name, str) or not _NAME.fullmatch(effect.name):
+        return f'"{effect.name}" is no name for an effect; use words in small letters, joined by "-".'
+    if effect.kind not in ("physics", "rig", "sensor"):
+        return f'effect {effect.name}: the kind "{effect.kind}" is none of physics, rig, sensor.'
+    unknown = [k for k in effect.kinds if k not in KINDS]
+    if unknown or not effect.kinds:
+        return f"effect {effect.name}: kinds must be some of {', '.join(KINDS)}, found {', '.join(unknown) or 'none'}."
+    if not effect.forms:
+        return f"effect {effect.name} has no form; it needs at least one law."
+    for form in effect.forms:
+        wrong = _form_defect(form, probe(effect.kinds[0]))
+        if wrong:
+            return f'effect {effect.name}, form "{form.name}": {wrong}.'
+    return None
+
+
+def _form_defect(form: Form, path: BenchPath) -> str | None:
+    if form.stage not in STAGES:
+        return f'the stage "{form.stage}" is none of {", ".join(STAGES)}'
+    without = [p.name for p in form.shape if p.starts is None]
+    if without:
+        return f"the shape {without[0]} has no starts; say where a search begins, such as of_strain(0.1, 1.0, 6)"
+    try:
+        middle = [float(v[len(v) // 2]) for v in (np.atleast_1d(p.starts([path])) for p in form.shape if p.starts)]
+        given = _answer(form, path, middle)
+        if form.stage in ("fixture", "filter"):
+            neutral = _answer(form, path, [0.0] * len(form.shape))
+            return _passes_defect(form, path, given, neutral)
+        return _columns_defect(form, path, given, middle)
+    except Exception as error:  # whatever a user's law raises becomes part of the sentence
+        return f"its law fails with {type(error).__name__}: {error}"
+
+
+def _signal(path: BenchPath) -> Array:
+    return np.column_stack([path.strain, path.strain**2])
+
+
+def _answer(form: Form, path: BenchPath, shape: list[float]) -> Array:
+    arguments = (_signal(path), path.time) if form.stage == "filter" else (path,)
+    return np.asarray(form.respond(*arguments, *shape), dtype=float)
+
+
+def _passes_defect(form: Form, path: BenchPath, given: Array, neutral: Array) -> str | None:
+    expected = _signal(path) if form.stage == "filter" else path.strain
+    if given.shape != expected.shape:
+        return f"its law must give an array of shape {expected.shape}, it gives {given.shape}"
+    if not np.isfinite(given).all():
+        return "its law gives values that are not finite"
+    if not np.array_equal(neutral, expected):
+        return "with all shapes at zero its law must return its input unchanged"
+    return None
+
+
+def _columns_defect(form: Form, path: BenchPath, given: Array, shape: list[float]) -> str | None:
+    expected = (len(path.strain), len(form.strength))
+    if not form.strength:
+        return "it has no strength, so that it could not be switched off"
+    if given.shape != expected:
+        return f"its law must give one column per strength, shape {expected}; it gives {given.shape}"
+    if not np.isfinite(given).all():
+        return "its law gives values that are not finite"
+    if form.advance is not None and form.memory == 0 and form.stage in ("section", "cross"):
+        order = np.random.default_rng(0).permutation(len(path.strain))
+        tension = None if path.tension is None else path.tension[order]
+        mixed = BenchPath(
+            path.kind, path.strain[order], path.time, path.length, tension, path.temperature,
+            path.direction, path.largest, path.typical_tension, path.typical_temperature,
+        )  # fmt: skip
+        if not np.allclose(_answer(form, mixed, shape), given[order], rtol=1e-9, atol=1e-12 * path.largest):
+            return "its law depends on the order of the samples, so it has a memory; say memoryless=False"
+    return None
