@@ -192,7 +192,13 @@ class RodModel:
         return out
 
     def _add_law(
-        self, law: SectionLaw, q: Array, blocks: Blocks | None, memory: SectionMemory | None, dt: float | None, out: Forces
+        self,
+        law: SectionLaw,
+        q: Array,
+        blocks: Blocks | None,
+        memory: SectionMemory | None,
+        dt: float | None,
+        out: Forces,
     ) -> None:
         lengths = self.rod.lengths
         memory = memory or SectionMemory.fresh(law, lengths.size, GAUSS_X.size)

@@ -153,8 +153,37 @@ def _step(
         factor = Factor(blocks)
         if factor.singular_node >= 0:
             return None, None, k
-        trial = trial - np.where(model.free, factor.solve(residual), 0.0)
+        delta = np.where(model.free, factor.solve(residual), 0.0)
+        if model.law is not None:
+            delta *= _shortening(
+                model, partial(forces_of, t, v=rest, anchors=anchors, friction=False), trial, delta, q, h
+            )
+        trial = trial - delta
     return None, None, settings.iterations
+
+
+def _shortening(
+    model: RodModel, forces_at: Callable[..., Forces], trial: Array, delta: Array, q: Array, h: float
+) -> float:
+    """Share of Newton's step at which the residual has no component along the step: a law with kinks makes it overshoot."""
+
+    def slope(share: float) -> float:
+        there = trial - share * delta
+        return float(
+            np.sum(delta * np.where(model.free, forces_at(q=there).F + model.inertia((there - q) / h**2), 0.0))
+        )
+
+    start, share = slope(0.0), 1.0
+    low, high = (0.0, start), (1.0, slope(1.0))
+    if start <= 0 or high[1] >= -0.5 * start:
+        return 1.0
+    for _ in range(4):
+        share = low[0] + (high[0] - low[0]) * low[1] / (low[1] - high[1])
+        here = slope(share)
+        if abs(here) <= 0.5 * start:
+            break
+        low, high = ((share, here), high) if here > 0 else (low, (share, here))
+    return share
 
 
 def _residual(model: RodModel, forces: Forces) -> tuple[float, float]:
