@@ -25,15 +25,16 @@ Array = NDArray[np.float64]
 def _maxwell_record(strain: Array, time: Array, tau: Array) -> Array:
     n, m = strain.size, tau.size
     stress = np.empty((n, m))
-    stress[0] = strain[0]
+    if n > 0:
+        stress[0] = strain[0]
     keep, take, known = np.ones(m), np.ones(m), 0.0
     for i in range(1, n):
         h = time[i] - time[i - 1]
-        if abs(h - known) > 1e-9 * known:  # evenly sampled: the same factors again
+        if abs(h - known) > 1e-9 * known or h == 0.0:  # evenly sampled: the same factors again
             known = h
             for j in range(m):
                 keep[j] = math.exp(-h / tau[j])
-                take[j] = -math.expm1(-h / tau[j]) * tau[j] / h
+                take[j] = -math.expm1(-h / tau[j]) * tau[j] / h if h > 0.0 else 1.0
         step = strain[i] - strain[i - 1]
         for j in range(m):
             stress[i, j] = keep[j] * stress[i - 1, j] + take[j] * step

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from effects.effect import UNKNOWN, Advance, BenchPath, Form, Parameter, Stage
+from effects.effect import UNKNOWN, BenchPath, Form, Parameter, Stage
 
 Array = NDArray[np.float64]
 Law = Callable[..., Array]

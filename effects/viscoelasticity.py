@@ -1,0 +1,155 @@
+r"""Viscoelasticity: stress fades while the strain stands still (Maxwell branches beside the linear spring).
+
+.. math::  c_j = q_j, \qquad \dot q_j = \dot\varepsilon - q_j/\tau_j
+
+Relaxation modulus K (1 + sum_j a_j exp(-t/tau_j)), a Prony series: K is the long-term stiffness. With many times spread
+evenly in the logarithm and strengths of one sign it can be any fading relaxation, a power law among them.
+Source: Maxwell 1867; Tschoegl, The Phenomenological Theory of Linear Viscoelastic Behavior (1989).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from effects.effect import UNKNOWN, BenchPath, Effect, Form, Parameter, Starts, of_time
+from effects.maxwell_branch import maxwell_record, maxwell_step
+
+Array = NDArray[np.float64]
+
+BRANCHES = 8
+"""Number of branches of the spectrum."""
+
+_TAU_SOURCE = "rubber relaxes on every time scale from milliseconds to months (general knowledge)"
+
+
+def _end(low: float, high: float, index: int) -> Starts:
+    """One value only: the first or last of a range of times."""
+    both = of_time(2, low, high)
+    return lambda paths: both(paths)[[index]]
+
+
+RELAXATION_TIME = Parameter(
+    "relaxation time",
+    "s",
+    "time in which the stress of the branch falls to 1/e",
+    low=1e-6,
+    plausible=(1e-3, 1e7),
+    source=_TAU_SOURCE,
+    starts=of_time(14, 0.5, 2.0),
+)
+SHORTEST_TIME = Parameter(
+    "shortest relaxation time",
+    "s",
+    "of the spectrum; half the sampling interval",
+    low=1e-6,
+    plausible=(1e-6, 1e7),
+    source=_TAU_SOURCE,
+    starts=_end(0.5, 2.0, 0),
+)
+LONGEST_TIME = Parameter(
+    "longest relaxation time",
+    "s",
+    "of the spectrum; twice the longest record",
+    low=1e-6,
+    plausible=(1e-6, 1e9),
+    source=_TAU_SOURCE,
+    starts=_end(0.5, 2.0, -1),
+)
+
+
+def _strength(name: str, meaning: str) -> Parameter:
+    return Parameter(
+        name,
+        "1",
+        meaning,
+        plausible=(0.0, 10.0),
+        source="short- over long-term stiffness of filled rubbers 1.1 to 10 (general knowledge)",
+    )
+
+
+def _record(path: BenchPath, tau: Array) -> Array:
+    if path.time is None:
+        return np.zeros((path.strain.size, tau.size))
+    return maxwell_record(path.strain, path.time, tau)
+
+
+def _one(path: BenchPath, tau: float) -> Array:
+    return _record(path, np.array([tau]))
+
+
+def _spectrum(path: BenchPath, shortest: float, longest: float) -> Array:
+    return _record(path, np.geomspace(shortest, longest, BRANCHES))
+
+
+def _advance_one(
+    strain: Array,
+    before: Array,
+    dt: float,
+    tension: Array,
+    temperature: Array,
+    state: Array,
+    tau: float,
+    reference: BenchPath = UNKNOWN,
+) -> tuple[Array, Array]:
+    stress = maxwell_step(state, strain - before, dt, np.array([tau]))
+    return stress, stress
+
+
+def _advance_spectrum(
+    strain: Array,
+    before: Array,
+    dt: float,
+    tension: Array,
+    temperature: Array,
+    state: Array,
+    shortest: float,
+    longest: float,
+    reference: BenchPath = UNKNOWN,
+) -> tuple[Array, Array]:
+    stress = maxwell_step(state, strain - before, dt, np.geomspace(shortest, longest, BRANCHES))
+    return stress, stress
+
+
+def _why_untestable(paths: Sequence[BenchPath]) -> str | None:
+    if all(p.time is None for p in paths):
+        return "no record has a clock, so that no relaxation can be timed"
+    return None
+
+
+ONE_BRANCH = Form(
+    "one Maxwell branch",
+    "section",
+    _one,
+    shape=(RELAXATION_TIME,),
+    strength=(_strength("fading stiffness", "stiffness that relaxes, over the long-term one"),),
+    advance=_advance_one,
+    memory=1,
+)
+SPECTRUM = Form(
+    "spectrum of eight Maxwell branches",
+    "section",
+    _spectrum,
+    shape=(SHORTEST_TIME, LONGEST_TIME),
+    strength=tuple(
+        _strength(f"fading stiffness {i + 1}", f"of branch {i + 1} from the fastest, over the long-term one")
+        for i in range(BRANCHES)
+    ),
+    advance=_advance_spectrum,
+    memory=BRANCHES,
+)
+
+EFFECT = Effect(
+    name="viscoelasticity",
+    kind="physics",
+    title="relaxation: stress fades at constant strain (Maxwell, Prony)",
+    equation="load = K (strain + sum_j a_j q_j),  dq_j/dt = dstrain/dt - q_j/tau_j",
+    source="Maxwell 1867; Tschoegl, The Phenomenological Theory of Linear Viscoelastic Behavior (1989)",
+    needs="a clock; a hold, or at least two rates independent of the amplitude",
+    signature="stiffness rises with rate, loop energy has its peak where rate times relaxation time is 1; holds fade",
+    kinds=("tension", "torsion", "bending", "shear"),
+    forms=(ONE_BRANCH, SPECTRUM),
+    why_untestable=_why_untestable,
+)
