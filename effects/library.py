@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import difflib
 import importlib
-import importlib.util
 import logging
 from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
@@ -130,8 +129,7 @@ def _clash(effect: object, replace: bool) -> str | None:
 
 @lru_cache(maxsize=1)
 def _built_in() -> tuple[Effect, ...]:
-    files = (f"effects.{name.replace('-', '_')}" for name in NAMES)
-    return tuple(importlib.import_module(file).EFFECT for file in files if importlib.util.find_spec(file))
+    return tuple(importlib.import_module(f"effects.{name.replace('-', '_')}").EFFECT for name in NAMES)
 
 
 @lru_cache(maxsize=1)
