@@ -45,7 +45,7 @@ _PART = (0.0, 10.0)
 
 
 def _middle(offsets: tuple[float, ...]) -> Starts:
-    return lambda paths: np.mean([p.typical_temperature for p in paths]) + np.array(offsets)
+    return lambda paths: np.array(offsets) + float(np.mean([p.typical_temperature for p in paths]))
 
 
 TRANSITION = Parameter(

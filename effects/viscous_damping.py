@@ -5,7 +5,7 @@ r"""Viscous damping: a resultant that is proportional to the strain rate (Kelvin
 
 The strength is a time, damping over stiffness. Between two samples the rate is known on average only. The plain form
 takes the second-order central difference, the rate at the sample; the form by steps takes that of the step before, as
-a rod does. They differ by half a sampling interval.
+a rod does; it is kept as state. They differ by half a sampling interval.
 Source: Kelvin 1865, Voigt 1892; the power law is that of Norton and of fluid dampers with orifices.
 """
 
@@ -83,7 +83,7 @@ def _advance(
     reference: BenchPath = UNKNOWN,
 ) -> tuple[Array, Array]:
     rate = (strain - before) / dt if dt > 0.0 else np.zeros_like(strain)
-    return rate[:, None], state
+    return rate[:, None], rate[:, None]
 
 
 def _advance_power_law(
@@ -97,7 +97,7 @@ def _advance_power_law(
     reference: BenchPath = UNKNOWN,
 ) -> tuple[Array, Array]:
     rate = (strain - before) / dt if dt > 0.0 else np.zeros_like(strain)
-    return _power(rate, reference.largest, exponent)[:, None], state
+    return _power(rate, reference.largest, exponent)[:, None], rate[:, None]
 
 
 def _why_untestable(paths: Sequence[BenchPath]) -> str | None:
@@ -112,6 +112,7 @@ LINEAR = Form(
     _linear,
     strength=(_strength("damping over stiffness"),),
     advance=_advance,
+    memory=1,
 )
 POWER_LAW = Form(
     "power of the rate",
@@ -120,6 +121,7 @@ POWER_LAW = Form(
     shape=(EXPONENT,),
     strength=(_strength("damping over stiffness at a rate of the largest strain per second"),),
     advance=_advance_power_law,
+    memory=1,
 )
 STEPWISE = Form(
     "proportional to the rate of the last step",
@@ -127,6 +129,7 @@ STEPWISE = Form(
     _stepwise,
     strength=(_strength("damping over stiffness"),),
     advance=_advance,
+    memory=1,
 )
 
 EFFECT = Effect(
