@@ -10,6 +10,7 @@ import math
 from typing import Any
 
 from compare.comparison import ChannelFit, Comparison, NotCompared
+from compare.noise_floor import NoiseModel
 
 
 def comparison_rows(comparison: Comparison) -> list[dict[str, Any]]:
@@ -28,11 +29,7 @@ def comparison_record(comparison: Comparison) -> dict[str, Any]:
             name: {"value": v.value, "std": v.std, "unit": v.unit, "nominal": v.nominal, "ratio": v.ratio}
             for name, v in comparison.calibration.values.items()
         },
-        "noise": [
-            {"kind": kind, "channel": channel, "s": c.s, "phi": c.phi, "gain": c.gain, "offset": c.offset}
-            | {"assumed": c.assumed, "source": c.source}
-            for (kind, channel), c in comparison.noise.by_channel.items()
-        ],
+        "noise": noise_rows(comparison.noise),
         "lack_of_fit": [
             {
                 "kind": kind,
@@ -54,6 +51,15 @@ def comparison_record(comparison: Comparison) -> dict[str, Any]:
     content = finite_content(content, "", lost)
     reasons = [f"{path} is null: the data leave no finite number for it." for path in lost]
     return {**content, "notes": [*comparison.notes, *reasons]}
+
+
+def noise_rows(noise: NoiseModel) -> list[dict[str, Any]]:
+    """One dictionary per kind and channel: scatter of a sample (correlated and white), of gain and of offset, SI."""
+    return [
+        {"kind": kind, "channel": channel, "s": c.s, "phi": c.phi, "white": c.white, "gain": c.gain, "offset": c.offset}
+        | {"assumed": c.assumed, "source": c.source}
+        for (kind, channel), c in noise.by_channel.items()
+    ]
 
 
 def _set_error(comparison: Comparison, name: str) -> dict[str, float | None] | None:

@@ -11,14 +11,14 @@ from __future__ import annotations
 import importlib.resources
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from compare.comparison import Comparison
-from compare.comparison_record import comparison_record, finite_content
-from compare.findings import Candidate, Check, Findings, NextExperiment, ParameterValue, Separation, SetError
-from compare.findings_sentences import missing_effect
-from compare.kinds import CONDITIONS, SETS
+from compare.comparison_record import comparison_record, finite_content, noise_rows
+from compare.findings import Candidate, Check, Findings, NextExperiment, ParameterValue, Separation, SetError, Step
+from compare.findings_sentences import missing_effect, with_units
+from compare.kinds import SETS
 
 UNIT = "relative to the noise floor"
 
@@ -82,11 +82,7 @@ def check_record(check: Check) -> dict[str, Any]:
         "schema": 1,
         "campaign": check.campaign.title,
         "experiments": experiment_rows(check),
-        "noise": [
-            {"kind": kind, "channel": channel, "s": c.s, "phi": c.phi, "gain": c.gain, "offset": c.offset}
-            | {"assumed": c.assumed, "source": c.source}
-            for (kind, channel), c in check.noise.by_channel.items()
-        ],
+        "noise": noise_rows(check.noise),
         "separation": _separation(check.separation),
         "untestable": [{"effect": u.effect, "why": u.why} for u in check.untestable],
         "smallest_seen": dict(check.smallest_seen),
@@ -147,19 +143,7 @@ def _next_experiment(n: NextExperiment) -> dict[str, Any]:
     return row | {"p_wrong_repeat": n.p_wrong_repeat, "sentence": n.sentence}
 
 
-def with_units(conditions: Mapping[str, float]) -> dict[str, float]:
-    """Conditions with their SI unit in the name, as the head of experiments.csv has them.
-
-    >>> with_units({"axial tension": 4000.0, "rate [1/s]": 0.5})
-    {'axial tension [N]': 4000.0, 'rate [1/s]': 0.5}
-    """
-    return {
-        name if "[" in name or name not in CONDITIONS else f"{name} [{CONDITIONS[name].unit}]": float(value)
-        for name, value in conditions.items()
-    }
-
-
-def _step_row(step: Any) -> dict[str, Any]:
+def _step_row(step: Step) -> dict[str, Any]:
     return {
         "added": step.added,
         "form": step.form,

@@ -6,11 +6,11 @@ Terminal, page and notebook say the same: they take their sentences from here.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from compare.comparison import ChannelFit, Comparison
 from compare.findings import Candidate, Findings, ParameterValue, SetError
-from compare.kinds import SETS
+from compare.kinds import CONDITIONS, SETS
 
 VERDICTS = {
     "none": "the residual is noise",
@@ -20,8 +20,8 @@ VERDICTS = {
     "unknown": "something is missing that the library does not have",
 }
 BASELINES = {
-    "gaussian-process": "Gaussian-process patch",
-    "gp": "Gaussian-process patch",
+    "gaussian-process": "GP patch",
+    "gp": "GP patch",
     "refit": "refit of the old model",
 }
 _MOST_NAMED = 3
@@ -65,11 +65,13 @@ def uncalibrated(findings: Findings) -> str:
     c = findings.comparison
     before, after = c.relative_error("calibrate", before=True), c.relative_error("calibrate")
     ratios = [
-        f"{v.name} {uncertain(v.ratio, v.std / abs(v.nominal))} of the predicted" for v in c.calibration.values.values()
+        f"{v.name} {v.ratio:.3g} of the predicted ({uncertain(v.value, v.std, v.unit)})"
+        for v in c.calibration.values.values()
     ]
     if before is None or after is None:
         return "No experiment of the set calibrate could be compared."
-    return f"As predicted: {before:.3g} x the noise floor; calibrated: {after:.3g} x, with {listed(ratios) or 'nothing to calibrate'}."
+    changed = listed(ratios) or "nothing to calibrate"
+    return f"{before:.3g} x the noise floor as predicted, {after:.3g} x calibrated: {changed}."
 
 
 def model_against_data(findings: Findings) -> str:
@@ -158,12 +160,15 @@ def rivals(findings: Findings) -> list[Candidate]:
     return [c for c in findings.ranking if c.effect not in inside]
 
 
+def rivals_sentence(c: Candidate) -> str:
+    """Why it is not this one."""
+    gate = "" if c.log_e >= c.needed else f", log e {c.log_e:.3g} below the {c.needed:.2g} that are needed"
+    return f"{c.effect}: {c.note or f'{c.behind:.3g} nats behind, explains {_percent(c.share)}{gate}'}"
+
+
 def why_not(findings: Findings) -> str:
     """Sentence 3: why it is none of the next best, and what these data cannot show at all."""
-    others = [
-        f"{c.effect}: {c.note or f'{c.behind:.3g} nats behind, explains {_percent(c.share)}'}"
-        for c in rivals(findings)[:_MOST_NAMED]
-    ]
+    others = [rivals_sentence(c) for c in rivals(findings)[:_MOST_NAMED]]
     closed = [f"{u.effect} ({u.why})" for u in findings.untestable]
     parts = [". ".join(o.rstrip(".") for o in others) + "."] if others else []
     if closed:
@@ -201,7 +206,7 @@ def what_next(findings: Findings) -> str:
     n = findings.next_experiment
     if n is None:
         return "No rivals are left that another experiment of these kinds would have to separate."
-    conditions = listed([_condition(k, v) for k, v in n.conditions.items()])
+    conditions = listed([_condition(k, v) for k, v in with_units(n.conditions).items()])
     text = n.sentence.rstrip(".") or f"{n.kind} at {conditions} separates {listed(n.separates)}"
     repeat = (
         f"; a repeat of what exists would give {_probability(n.p_wrong_repeat)}" if n.p_wrong_repeat is not None else ""
@@ -218,6 +223,18 @@ def first_screen(findings: Findings) -> tuple[tuple[str, str], ...]:
         ("Held out", held_out(findings)),
         ("Next", what_next(findings)),
     )
+
+
+def with_units(conditions: Mapping[str, float]) -> dict[str, float]:
+    """Conditions with their SI unit in the name, as the head of experiments.csv has them.
+
+    >>> with_units({"axial tension": 4000.0, "rate [1/s]": 0.5})
+    {'axial tension [N]': 4000.0, 'rate [1/s]': 0.5}
+    """
+    return {
+        name if "[" in name or name not in CONDITIONS else f"{name} [{CONDITIONS[name].unit}]": float(value)
+        for name, value in conditions.items()
+    }
 
 
 def _condition(name: str, value: float) -> str:

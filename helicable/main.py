@@ -14,7 +14,8 @@ import typer
 from geometry.errors import ConvergenceError, InputError
 from helicable.screen import errors
 
-VERBS = ("cables", "show", "mesh", "homogenize", "tow", "compare", "demo")
+VERBS = ("cables", "show", "mesh", "homogenize", "tow", "check", "compare", "explain", "add", "next", "demo")
+FILES = {"next": "next_experiment"}  # where a verb's file and function are not named as the verb
 
 
 def application(arguments: Sequence[str]) -> typer.Typer:
@@ -30,7 +31,8 @@ def application(arguments: Sequence[str]) -> typer.Typer:
     )
     called = [verb for verb in VERBS if list(arguments[:1]) == [verb]]
     for verb in called or VERBS:
-        app.command(verb)(getattr(importlib.import_module(f"helicable.commands.{verb}"), verb))
+        name = FILES.get(verb, verb)
+        app.command(verb)(getattr(importlib.import_module(f"helicable.commands.{name}"), name))
     app.callback()(lambda: None)
     return app
 

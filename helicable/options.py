@@ -10,6 +10,9 @@ import typer
 CableArgument = Annotated[
     str, typer.Argument(metavar="CABLE", help="A built-in cable (see `helicable cables`) or a TOML file.")
 ]
+CampaignArgument = Annotated[
+    Path, typer.Argument(metavar="CAMPAIGN", help="Folder with campaign.toml and experiments.csv.")
+]
 JsonOption = Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write the result for machines.")]
 OutOption = Annotated[
     Path | None, typer.Option("--out", metavar="DIR", help="Write pictures and tables into this folder.")

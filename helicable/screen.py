@@ -12,8 +12,10 @@ from typing import Any
 
 import numpy as np
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
+from rich.text import Text
 
 from geometry.errors import InputError
 
@@ -38,7 +40,7 @@ def progress(title: str) -> Iterator[ProgressCallback]:
     )
     with Progress(*columns, console=errors, transient=True) as bar:
         task = bar.add_task("", total=1.0, title=title)
-        yield lambda fraction, sentence: bar.update(task, completed=fraction, description=sentence)
+        yield lambda fraction, sentence: bar.update(task, completed=fraction, description=escape(sentence))
 
 
 def _plain_progress(title: str) -> ProgressCallback:
@@ -49,20 +51,31 @@ def _plain_progress(title: str) -> ProgressCallback:
         now = time.monotonic()
         if fraction - last[0] >= 0.25 and now - last[1] > 1.0:
             last[:] = [fraction, now]
-            errors.print(f"{title}: {100 * fraction:.0f} %, {sentence}", soft_wrap=True)
+            errors.print(f"{title}: {100 * fraction:.0f} %, {sentence}", soft_wrap=True, markup=False)
 
     return tell
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]], *, right: Sequence[int] = ()) -> None:
-    """Print a table; `right` lists the columns of numbers."""
-    made = Table(title=title, title_justify="left", title_style="bold", header_style="bold", box=None, pad_edge=False)
+    """Print a table; `right` lists the columns of numbers. Cells are text as it is, so that a unit in brackets stays."""
+    made = Table(title=Text(title, style="bold"), title_justify="left", header_style="bold", box=None, pad_edge=False)
     for i, column in enumerate(columns):
-        made.add_column(column, justify="right" if i in right else "left", overflow="fold")
+        made.add_column(Text(column), justify="right" if i in right else "left", overflow="fold")
     for row in rows:
-        made.add_row(*(str(cell) for cell in row))
+        made.add_row(*(Text(str(cell)) for cell in row))
     console.print(made)
     console.print()
+
+
+def sheet(title: str, rows: Sequence[tuple[str, str]]) -> None:
+    """Print a title and named paragraphs, wrapped to the terminal; an empty name goes on with the one above."""
+    console.print(Text(title, style="bold"))
+    made = Table.grid(padding=(0, 2, 0, 0))
+    made.add_column(style="bold", no_wrap=True)
+    made.add_column(overflow="fold")
+    for name, text in rows:
+        made.add_row(Text(name), Text(text))
+    console.print(made)
 
 
 def say(sentence: str) -> None:

@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
-
-import typer
-
 from compare import BenchModel, BenchSection, Campaign, plot_comparison
 from compare import compare as compare_with
 from geometry import read_cable
 from geometry.errors import ConvergenceError, SpecError
-from helicable.options import JsonOption, OutOption
-from helicable.screen import folder, progress, say, table, write_json
+from helicable.options import CampaignArgument, JsonOption, OutOption
+from helicable.screen import folder, progress, say, sheet, table, write_json
 from homogenize import homogenize_cable
 
 
 def compare(
-    campaign: Annotated[
-        Path, typer.Argument(metavar="CAMPAIGN", help="Folder with campaign.toml and experiments.csv.")
-    ],
+    campaign: CampaignArgument,
     json: JsonOption = None,
     out: OutOption = None,
 ) -> None:
@@ -32,7 +25,7 @@ def compare(
     with progress("comparing") as tell:
         comparison = compare_with(BenchModel(section), read, progress=tell)
     record = comparison.record()
-    say(f"[bold]{read.title}[/bold]\n{comparison.headline()}\n")
+    sheet(read.title, [("", comparison.headline()), ("", "")])
     rows = [
         (r["id"], r["kind"], r["channel"], r["set"], *(_short(r[k]) for k in ("rmse", "bias", "noise_floor", "excess")))
         for r in record["experiments"]
@@ -41,8 +34,7 @@ def compare(
     table("Calibrated model against measurement (SI units)", columns, rows, right=(4, 5, 6, 7))
     calibrated = [(k, _short(v["value"]), _short(v["std"]), v["unit"]) for k, v in record["calibrated"].items()]
     table("Calibrated stiffness", ("", "value", "std", "unit"), calibrated, right=(1, 2))
-    for note in comparison.notes:
-        say(f"- {note}")
+    sheet("Notes", [("-", note) for note in comparison.notes])
     write_json(json, record)
     if out is not None:
         pictures = plot_comparison(comparison, folder(out))

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from made_campaign import NOMINAL, made_experiment
+from sound_campaign import TOML
 
 from compare import BenchModel, Campaign, Comparison, NominalSection, compare
 from compare.findings import (
@@ -62,6 +63,18 @@ def loops(friction: float, seed: int = 0) -> list:
 
 def made_campaign_of(friction: float, title: str = "Bench tests of a made cable") -> Campaign:
     return Campaign(Path("."), title, None, NominalSection(NOMINAL), {}, {}, tuple(loops(friction)))
+
+
+def ranked(verdict: str) -> tuple[Candidate, ...]:
+    """The same candidates as that verdict would have them."""
+    best, second, *others = candidates()
+    if verdict == "none":
+        return tuple(replace(c, log_e=1.0 - i, share=0.0, note="") for i, c in enumerate((best, second, *others)))
+    if verdict == "unknown":
+        return tuple(replace(c, note="") for c in (others[0], replace(second, share=0.31, log_e=44.0), others[1]))
+    if verdict == "confusable":
+        return (best, replace(second, log_e=213.2, share=0.97, behind=0.8, note=""), *others)
+    return (best, second, *others)
 
 
 @cache
@@ -148,7 +161,7 @@ def made_findings(
         effects=("interlayer-friction",) if named else (),
         confusable=rivals if verdict == "confusable" else (),
         closest=("viscous-damping", 0.42) if verdict == "unknown" else None,
-        ranking=candidates(),
+        ranking=ranked(verdict),
         untestable=(Untestable("thermal-softening", "all experiments at 20 degC"),),
         separation=separation(),
         smallest_seen={"interlayer-friction": "a slip limit of 0.2 N m", "stiffening": "2 % at the largest curvature"},
@@ -183,3 +196,20 @@ def made_check(title: str = "Bench tests of a made cable") -> Check:
         {"interlayer-friction": "a slip limit of 0.2 N m"},
         (),
     )
+
+
+def write_campaign(folder: Path, friction: float = 3.0, sealed: tuple[str, ...] = ()) -> Path:
+    """The made campaign as a folder; the experiments named in `sealed` are of that set."""
+    folder.mkdir(parents=True)
+    lines = ["id,kind,file,specimen,repeat_of,set,axial tension [N],temperature [degC],specimen length [m]"]
+    for e in loops(friction):
+        r, put = e.record, "sealed" if e.id in sealed else e.set
+        lines.append(
+            f"{e.id},{e.kind},{e.file},{e.specimen},{e.repeat_of or ''},{put},{e.conditions['axial tension']:g},20,1"
+        )
+        table = np.column_stack([r.time, r["curvature"], r["moment"]])
+        head = "time [s],curvature [1/m],moment [N m]"
+        np.savetxt(folder / e.file, table, delimiter=",", header=head, comments="", fmt="%.9g")
+    (folder / "experiments.csv").write_text("\n".join(lines) + "\n")
+    (folder / "campaign.toml").write_text(TOML.replace("a test", "Bench tests of a made cable"))
+    return folder

@@ -11,8 +11,8 @@ import pytest
 from made_findings import VERDICTS, made_check, made_findings
 
 from compare.findings import SetError, Untestable
-from compare.findings_record import check_record, explain_schema, findings_record, with_units
-from compare.findings_sentences import first_screen, uncalibrated, uncertain
+from compare.findings_record import check_record, explain_schema, findings_record
+from compare.findings_sentences import first_screen, uncalibrated, uncertain, with_units
 
 KEYS = (
     "schema",
@@ -46,7 +46,7 @@ def test_the_contracts_keys_come_first_and_in_order(verdict):
     assert record["error"]["sealed"] is None
     assert {"before", "after", "floor"} <= set(record["error"]["validate"])
     assert {"effect", "kind", "log_e", "share", "parameters", "note"} <= set(record["ranking"][0])
-    assert {"value", "std", "unit"} <= set(record["ranking"][0]["parameters"]["slip_limit"])
+    assert {"value", "std", "unit"} <= set(next(iter(record["ranking"][0]["parameters"].values())))
     assert json.loads(json.dumps(record, allow_nan=False)) == record
     assert all(math.isfinite(n) for n in numbers(record))
 
@@ -106,7 +106,7 @@ def test_what_is_not_finite_is_null_and_said_so():
     assert record["error"]["calibrate"]["before"] is None
     assert record["error"]["validate"] is None
     assert any("error.calibrate.before is null" in note for note in record["notes"])
-    assert record["ranking"][3]["parameters"]["c3"]["std"] is None
+    assert record["ranking"][3]["parameters"]["c3"]["std"] is None  # the made std is infinite
     assert not any("plausible" in note for note in record["notes"]), "an open range is not a lost number"
 
 
@@ -125,7 +125,7 @@ def test_sentences_carry_the_numbers():
     screen = dict(first_screen(made_findings("identified")))
     assert "log e 214 (needs 7.5)" in screen["Missing effect"] and "97 %" in screen["Missing effect"]
     assert "3.4 -> 1.05 x floor, excess ratio 0.15 [0.11, 0.2], confirmed" in screen["Held out"]
-    assert "Gaussian-process patch 2.7" in screen["Held out"]
+    assert "GP patch 2.7" in screen["Held out"]
     assert "50 % -> 1e-04" in dict(first_screen(made_findings("confusable")))["Next"]
     assert "a slip limit of 0.2 N m" in dict(first_screen(made_findings("none")))["Missing effect"]
 
@@ -137,7 +137,8 @@ def test_an_error_that_did_not_fall_is_not_confirmed():
 
 def test_the_uncalibrated_model_stands_first_with_its_ratio():
     sentence = uncalibrated(made_findings("identified"))
-    assert sentence.startswith("As predicted:") and "EI 0.84" in sentence  # 80 of 95 N m^2
+    assert sentence.startswith("27 x the noise floor as predicted, 9.18 x calibrated")
+    assert "EI 0.842 of the predicted (79.98" in sentence  # 80 of 95 N m^2
 
 
 def test_uncertainty_rounds_to_two_digits():

@@ -1,0 +1,84 @@
+"""`helicable explain`: where the model fails, which effect is missing, and whether the error falls on data left out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from compare.findings import Findings
+from effects import Effect, find
+from geometry.errors import InputError
+from helicable.bench_campaign import bench_model, read_bench_campaign
+from helicable.explain_screen import show_findings
+from helicable.options import CampaignArgument, JsonOption, OutOption
+from helicable.screen import folder, progress, sheet, write_json
+
+OpenSealed = Annotated[
+    bool,
+    typer.Option(
+        "--open-sealed", help="Open the sealed experiments once, after the model is fixed, and judge it there."
+    ),
+]
+Names = Annotated[
+    str | None, typer.Option("--effects", metavar="A,B", help="Try these effects only (see `helicable effects`).")
+]
+
+
+def explain(
+    campaign: CampaignArgument,
+    json: JsonOption = None,
+    out: OutOption = None,
+    open_sealed: OpenSealed = False,
+    effects: Names = None,
+) -> None:
+    """Find the physics that the linear model misses, and prove it on data that it did not fit.
+
+    Example: `helicable explain my-campaign --out report`
+    """
+    read, notes = read_bench_campaign(campaign, "explain")
+    from compare.explain import explain as explain_campaign
+    from compare.explain import open_and_validate
+
+    model, library = bench_model(read), None if effects is None else chosen_effects(effects)
+    with progress("explaining") as tell:
+        findings = explain_campaign(model, read, progress=tell, library=library)
+    if open_sealed:
+        if read.of_set("sealed"):
+            with progress("opening the sealed experiments"):
+                findings = open_and_validate(findings, read)
+        else:
+            notes = (*notes, "--open-sealed: the campaign has no sealed experiments.")
+    show_findings(findings, notes)
+    write_findings(findings, json, out, notes)
+
+
+def chosen_effects(names: str) -> tuple[Effect, ...]:
+    """Effects of the library by name, comma-separated.
+
+    Raises
+    ------
+    SpecError, InputError
+        If a name is not in the library; if there is none.
+    """
+    wanted = [name.strip() for name in names.split(",") if name.strip()]
+    if not wanted:
+        raise InputError("--effects names no effect; give one or several, separated by commas.")
+    return tuple(find(name) for name in dict.fromkeys(wanted))
+
+
+def write_findings(findings: Findings, json: Path | None, out: Path | None, notes: tuple[str, ...] = ()) -> None:
+    """JSON, and with `out` the page, its pictures and the same JSON."""
+    record = findings.record()
+    record["notes"] = [*notes, *record["notes"]]
+    write_json(json, record)
+    if out is None:
+        return
+    from helicable.explain_report import write_report
+
+    folder(out)
+    with progress("drawing the report"):
+        page = write_report(findings, out, notes)
+    write_json(out / "explain.json", record)
+    sheet("", [("Report", str(page)), ("JSON", str(out / "explain.json"))])

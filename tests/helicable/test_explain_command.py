@@ -1,0 +1,171 @@
+"""The verbs check, explain, add and next: what they show, write and refuse; findings are made by hand here."""
+
+from __future__ import annotations
+
+import json
+import sys
+import types
+from dataclasses import replace
+
+import pytest
+from made_findings import VERDICTS, made_check, made_findings, write_campaign
+
+from compare.findings import SetError
+from compare.findings_record import explain_schema
+from helicable.main import main
+
+TOWING = """title = "towed"
+[section]
+EA = "4.0e5 N"
+GA = "1.6e5 N"
+EI = "95 N m^2"
+GJ = "60 N m^2"
+mass_per_length = "4.6 kg/m"
+[towing]
+friction_coefficient = 0.35
+cable_length = "40 m"
+tail_tension = "800 N"
+inclination = "6 deg"
+"""
+TOWED = "time [s],position [m],tension [N]\n" + "".join(f"{t},{0.01 * t},{800 + t}\n" for t in range(20))
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A campaign folder with the made experiments, one of them sealed."""
+    return write_campaign(tmp_path / "campaign", sealed=("b05a", "b05b"))
+
+
+@pytest.fixture
+def explained(monkeypatch):
+    """compare.explain replaced: returns made findings and keeps what it was called with."""
+    calls: dict[str, object] = {}
+
+    def explain(model, campaign, progress=None, library=None):
+        calls.update(explained=campaign, library=library)
+        return made_findings(calls.get("verdict", "identified"))
+
+    def open_and_validate(findings, campaign):
+        calls.update(
+            opened=campaign,
+            order=[*calls.get("order", []), "opened after explain" if "explained" in calls else "first"],
+        )
+        errors = {**findings.errors, "sealed": SetError(3.2, 1.1, 1.0, 0.2, 0.1, 0.3, {}, True)}
+        return replace(findings, errors=errors, sealed_opened=True)
+
+    made = types.ModuleType("compare.explain")
+    made.explain, made.open_and_validate = explain, open_and_validate
+    monkeypatch.setitem(sys.modules, "compare.explain", made)
+    return calls
+
+
+def squeezed(text: str) -> str:
+    return " ".join(text.split())
+
+
+@pytest.mark.parametrize("verdict", VERDICTS)
+def test_explain_shows_one_screen_and_writes_the_contracts_json(
+    verdict, folder, explained, tmp_path, capsys, monkeypatch
+):
+    monkeypatch.setenv("COLUMNS", "80")
+    explained["verdict"] = verdict
+    file = tmp_path / "f.json"
+    assert main(["explain", str(folder), "--json", str(file)]) == 0
+    out = capsys.readouterr().out
+    record = json.loads(file.read_text())
+    assert record["verdict"] == verdict
+    assert record["error"]["sealed"] is None
+    assert len(out.splitlines()) <= 40
+    shown = squeezed(out)
+    for word in ("Predicted", "Fails", f"Missing {verdict}", "Why not", "Untestable", "Next", "ratio of excess"):
+        assert word in shown, word
+    assert "opened" not in explained
+
+
+def test_explain_follows_its_schema(folder, explained, tmp_path):
+    jsonschema = pytest.importorskip("jsonschema")
+    assert main(["explain", str(folder), "--json", str(tmp_path / "f.json")]) == 0
+    jsonschema.validate(json.loads((tmp_path / "f.json").read_text()), explain_schema())
+
+
+def test_sealed_experiments_are_opened_after_the_model_is_fixed(folder, explained, tmp_path, capsys):
+    """explain sees the campaign with its sealed tables unread; they are opened by the validation alone."""
+    file = tmp_path / "f.json"
+    assert main(["explain", str(folder), "--open-sealed", "--json", str(file)]) == 0
+    assert not any(e.is_open for e in explained["explained"].of_set("sealed"))
+    assert explained["opened"] is explained["explained"]
+    assert explained["order"] == ["opened after explain"]
+    assert json.loads(file.read_text())["error"]["sealed"]["after"] == 1.1
+    assert "sealed" in capsys.readouterr().out
+
+
+def test_opening_where_nothing_is_sealed_is_said(tmp_path, explained, capsys):
+    folder = write_campaign(tmp_path / "campaign")
+    assert main(["explain", str(folder), "--open-sealed"]) == 0
+    assert "no sealed experiments" in squeezed(capsys.readouterr().out)
+    assert "opened" not in explained
+
+
+def test_the_library_can_be_restricted(folder, explained, capsys):
+    assert main(["explain", str(folder), "--effects", "sensor-offset, plasticity"]) == 0
+    assert [e.name for e in explained["library"]] == ["sensor-offset", "plasticity"]
+    assert main(["explain", str(folder), "--effects", "plastisity"]) == 2
+    assert "plasticity" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("verb", ["check", "explain", "next", "add"])
+def test_towing_alone_is_refused_in_a_sentence(verb, tmp_path, capsys):
+    rows = "id,kind,file,specimen,repeat_of,set\nw,towing,w.csv,S,,calibrate\n"
+    for name, text in {"campaign.toml": TOWING, "experiments.csv": rows, "w.csv": TOWED}.items():
+        (tmp_path / name).write_text(text)
+    words = [verb, str(tmp_path), *(["plasticity"] if verb == "add" else [])]
+    assert main(words) == 2
+    err = squeezed(capsys.readouterr().err)
+    assert "bench kinds only so far" in err and "Traceback" not in err
+
+
+def test_towing_among_bench_experiments_is_left_aside_with_a_note(folder, explained, tmp_path, capsys):
+    (folder / "campaign.toml").write_text(TOWING)
+    with (folder / "experiments.csv").open("a") as file:
+        file.write("w,towing,w.csv,S,,calibrate,,,\n")
+    (folder / "w.csv").write_text(TOWED)
+    assert main(["explain", str(folder)]) == 0
+    assert "left aside, because only bench kinds are explained so far: w (towing)" in squeezed(capsys.readouterr().out)
+
+
+def test_next_gives_the_experiment_and_its_probabilities(folder, explained, tmp_path, capsys):
+    explained["verdict"] = "confusable"
+    file = tmp_path / "n.json"
+    assert main(["next", str(folder), "--json", str(file)]) == 0
+    record = json.loads(file.read_text())
+    assert record["next_experiment"]["p_wrong_after"] == 1e-4
+    out = squeezed(capsys.readouterr().out)
+    assert "axial tension [N] 4000" in out
+    assert "with these data 0.5" in out and "after this experiment 0.0001" in out
+
+
+def test_next_without_rivals_says_so(folder, explained, capsys):
+    assert main(["next", str(folder)]) == 0
+    assert "No rivals are left" in squeezed(capsys.readouterr().out)
+
+
+def test_check_shows_what_was_recorded_and_what_it_can_show(folder, tmp_path, capsys, monkeypatch):
+    made = types.ModuleType("compare.testability")
+    made.check = lambda model, campaign, progress=None: made_check()
+    monkeypatch.setitem(sys.modules, "compare.testability", made)
+    file = tmp_path / "c.json"
+    assert main(["check", str(folder), "--json", str(file)]) == 0
+    out = squeezed(capsys.readouterr().out)
+    assert "interlayer-friction plasticity 31 %" in out
+    assert "stiffening plasticity" not in out, "pairs below 5 % are not listed"
+    assert "axial tension [N] 500 2000 3" in out
+    assert "thermal-softening: all experiments at 20 degC" in out and "vary together" in out
+    record = json.loads(file.read_text())
+    assert {"experiments", "noise", "separation", "untestable", "smallest_seen", "notes"} <= set(record)
+
+
+def test_a_title_with_brackets_is_shown_as_it_is(folder, explained, capsys):
+    toml = folder / "campaign.toml"
+    toml.write_text(toml.read_text().replace("Bench tests", "[/bold] Bench [b]tests"))
+    assert main(["compare", str(folder)]) == 0
+    assert "[/bold] Bench [b]tests" in capsys.readouterr().out
