@@ -48,7 +48,7 @@ def slip_record(strain: Array, slip_strain: Array, ratio: Array) -> Array:
     Examples
     --------
     >>> slip_record(np.array([1.0, 3.0, 2.0, 0.0]), np.array([2.0]), np.ones(4)).ravel()
-    array([1., 2., 1., -1.])
+    array([ 1.,  2.,  1., -1.])
     """
     return _slip_record(np.ascontiguousarray(strain, dtype=float), slip_strain, ratio)
 
