@@ -109,7 +109,7 @@ class BenchModel:
         )
         given = record[record.prescribed]
         load_controlled = record.prescribed == kind.load
-        main = self._main_stiffness(experiment)
+        main = self.main_stiffness(experiment)
         strain = given / main if load_controlled else given / _path_scale(record.prescribed, over_length)
         predicted = {}
         for channel in record.measured:
@@ -121,7 +121,7 @@ class BenchModel:
                 predicted[channel] = self.stiffness("coupling") * strain
         return predicted
 
-    def _main_stiffness(self, experiment: Experiment) -> float:
+    def main_stiffness(self, experiment: Experiment) -> float:
         """Load over path, the path taken per length where the section law is."""
         if experiment.kind == "tension":
             return self.stiffness("EA")

@@ -1,49 +1,38 @@
 """Pictures of a comparison: model over measurement with the residual below, and where the model fails.
 
-matplotlib is imported when a picture is asked for. Colours are those of Okabe & Ito (2008), which stay apart for
-colour-blind readers; what they say is also said by line width, marker or text.
+matplotlib is imported when a picture is asked for.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Sequence, Set
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from compare.comparison import ChannelFit, Comparison
+from compare.plot_style import (
+    BLUE,
+    GREY,
+    INK,
+    SKY,
+    STYLE,
+    VERMILLION,
+    force_scale,
+    path_of,
+    path_scale,
+    thinned,
+    told,
+    varying,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_BLUE, _SKY, _VERMILLION, _GREY, _INK = "#0072B2", "#56B4E9", "#D55E00", "#8C8C8C", "#2B2B2B"
-_STYLE: dict[Any, Any] = {
-    "font.size": 9,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.edgecolor": _GREY,
-    "axes.labelcolor": _INK,
-    "xtick.color": _INK,
-    "ytick.color": _INK,
-    "axes.titlesize": 9,
-    "axes.titlelocation": "left",
-    "figure.constrained_layout.use": True,
-    "savefig.dpi": 150,
-}
 _COLUMNS, _PANELS_A_PAGE = 4, 8
-_MOST_POINTS = 3000
 _MOST_BARS = 60
-_SHOWN = {
-    "extension": (1e3, "mm"),
-    "deflection": (1e3, "mm"),
-    "strain": (1e2, "%"),
-    "rotation": (180 / np.pi, "deg"),
-}
-_CONDITION_SHOWN = {"temperature": (1.0, -273.15, "°C"), "inclination": (180 / np.pi, 0.0, "°")}
-_CONDITION_UNIT = {"axial tension": "N", "tail tension": "N", "specimen length": "m", "speed": "m/s", "frequency": "Hz"}
 
 
 def plot_comparison(comparison: Comparison, folder: str | Path) -> list[Path]:
@@ -69,7 +58,7 @@ def plot_comparison(comparison: Comparison, folder: str | Path) -> list[Path]:
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     written = []
-    with matplotlib.rc_context(_STYLE):
+    with matplotlib.rc_context(STYLE):
         for name, figure in _figures(comparison):
             FigureCanvasAgg(figure)
             figure.savefig(folder / f"{name}.png")
@@ -88,7 +77,7 @@ def _figures(comparison: Comparison) -> list[tuple[str, Figure]]:
                 f" ({page} of {len(pages)})" if len(pages) > 1 else ""
             )
             name = f"{kind}-{channel.replace(' ', '-')}-{page}"
-            figures.append((name, loops_figure(part, title, _varying(groups), failing)))
+            figures.append((name, loops_figure(part, title, varying([g[0].experiment for g in groups]), failing)))
     return figures
 
 
@@ -129,10 +118,10 @@ def loops_figure(
     outer = figure.add_gridspec(rows, columns, hspace=0.06)
     largest = max(float(np.abs(f.measured).max()) for group in groups for f in group)
     first = groups[0][0]
-    x_scale, y_scale = _scale(first.experiment.record.prescribed, first), _force_scale(first.unit, largest)
+    x_scale, y_scale = path_scale(first.experiment.record.prescribed, first), force_scale(first.unit, largest)
     worst = max(float(np.abs(f.measured - f.model).max()) for group in groups for f in group)
     reach = 1.08 * max(worst, 2.5 * max(f.noise_floor for group in groups for f in group))
-    r_scale = _force_scale(first.unit, reach)
+    r_scale = force_scale(first.unit, reach)
     for i, group in enumerate(groups):
         inner = outer[i // columns, i % columns].subgridspec(2, 1, height_ratios=(2.2, 1), hspace=0.05)
         top = figure.add_subplot(inner[0])
@@ -147,38 +136,38 @@ def loops_figure(
             top.set_ylabel(f"{first.channel} [{y_scale[1]}]")
             below.set_ylabel(f"residual [{r_scale[1]}]")
     _shared_legend(figure, max(len(g) for g in groups) > 1)
-    figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold", color=_INK)
+    figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold", color=INK)
     return figure
 
 
 def _draw_loop(axes: Axes, group: Sequence[ChannelFit], x_scale: tuple[float, str], y_scale: tuple[float, str]) -> None:
     for i, fit in enumerate(group):
-        x, y = _thinned(_path(fit) * x_scale[0], fit.measured * y_scale[0])
-        axes.plot(x, y, color=_BLUE if i == 0 else _SKY, lw=1.6, zorder=3 - 0.1 * i)
-    x, f = _thinned(_path(group[0]) * x_scale[0], group[0].model * y_scale[0])
-    axes.plot(x, f, color=_VERMILLION, lw=1.0, zorder=4)
+        x, y = thinned(path_of(fit) * x_scale[0], fit.measured * y_scale[0])
+        axes.plot(x, y, color=BLUE if i == 0 else SKY, lw=1.6, zorder=3 - 0.1 * i)
+    x, f = thinned(path_of(group[0]) * x_scale[0], group[0].model * y_scale[0])
+    axes.plot(x, f, color=VERMILLION, lw=1.0, zorder=4)
 
 
 def _draw_residual(
     axes: Axes, group: Sequence[ChannelFit], x_scale: tuple[float, str], r_scale: tuple[float, str]
 ) -> None:
     band = 2 * float(np.mean([f.noise_floor for f in group])) * r_scale[0]
-    axes.axhspan(-band, band, color=_GREY, alpha=0.4, lw=0)
-    axes.axhline(0, color=_VERMILLION, lw=0.8)
+    axes.axhspan(-band, band, color=GREY, alpha=0.4, lw=0)
+    axes.axhline(0, color=VERMILLION, lw=0.8)
     for i, fit in enumerate(group):
-        x, r = _thinned(_path(fit) * x_scale[0], (fit.measured - fit.model) * r_scale[0])
-        axes.plot(x, r, color=_BLUE if i == 0 else _SKY, lw=0.8, zorder=3 - 0.1 * i)
+        x, r = thinned(path_of(fit) * x_scale[0], (fit.measured - fit.model) * r_scale[0])
+        axes.plot(x, r, color=BLUE if i == 0 else SKY, lw=0.8, zorder=3 - 0.1 * i)
 
 
 def _shared_legend(figure: Figure, repeats: bool) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
-    handles: list[Any] = [Line2D([], [], color=_BLUE, lw=1.6, label="measured")]
+    handles: list[Any] = [Line2D([], [], color=BLUE, lw=1.6, label="measured")]
     if repeats:
-        handles.append(Line2D([], [], color=_SKY, lw=1.6, label="its repeats"))
-    handles.append(Line2D([], [], color=_VERMILLION, lw=1.6, label="calibrated linear model"))
-    handles.append(Patch(color=_GREY, alpha=0.4, lw=0, label="noise, ± 2 floors"))
+        handles.append(Line2D([], [], color=SKY, lw=1.6, label="its repeats"))
+    handles.append(Line2D([], [], color=VERMILLION, lw=1.6, label="calibrated linear model"))
+    handles.append(Patch(color=GREY, alpha=0.4, lw=0, label="noise, ± 2 floors"))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), frameon=False)
 
 
@@ -199,14 +188,14 @@ def overview_figure(comparison: Comparison) -> Figure:
     rows = _rows_with_gaps(fits)
     after = np.array([f.relative_excess for f in fits])
     before = np.array([f.before.excess / f.noise_floor for f in fits])
-    colours = [_VERMILLION if id(f) in failing else _SKY for f in fits]
+    colours = [VERMILLION if id(f) in failing else SKY for f in fits]
     axes.barh(rows, after, height=0.72, color=colours)
-    axes.plot(before, rows, "o", mfc="white", mec=_INK, ms=4.5, mew=1.0, clip_on=False)
+    axes.plot(before, rows, "o", mfc="white", mec=INK, ms=4.5, mew=1.0, clip_on=False)
     for row, fit in zip(rows, fits):
-        scale, unit = _force_scale(fit.unit, fit.after.excess)
+        scale, unit = force_scale(fit.unit, fit.after.excess)
         size = f"{fit.after.excess * scale:.3g} {unit}" if id(fit) in failing else "within noise"
         place = {"transform": axes.get_yaxis_transform(), "va": "center", "ha": "left", "fontsize": 7.5}
-        axes.text(1.015, row, size, color=_INK if id(fit) in failing else _GREY, **place)
+        axes.text(1.015, row, size, color=INK if id(fit) in failing else GREY, **place)
     axes.set_yticks(rows, [f"{f.experiment.id}  {f.experiment.kind} {f.channel}" for f in fits], fontsize=7.5)
     axes.set_ylim(max(rows) + 0.8, min(rows) - 1.2)
     axes.set_xlim(0, 1.12 * max(1.0, float(np.max(after)), float(np.max(before))))
@@ -214,11 +203,11 @@ def overview_figure(comparison: Comparison) -> Figure:
         axes.set_xscale("symlog", linthresh=1.0)
     for name in dict.fromkeys(f.experiment.set for f in fits):
         start = min(r for r, f in zip(rows, fits, strict=True) if f.experiment.set == name)
-        axes.text(0, start - 0.6, f" {name}", fontsize=8.5, fontweight="bold", color=_INK, va="bottom")
+        axes.text(0, start - 0.6, f" {name}", fontsize=8.5, fontweight="bold", color=INK, va="bottom")
     _finish_overview(figure, axes)
     tail = f" (the {_MOST_BARS} largest; {hidden} more are smaller)" if hidden else ""
     title = "Where the linear model fails" if failing else "The linear model: no record stands out of its noise"
-    figure.suptitle(f"{title}{tail}", x=0.01, ha="left", fontsize=12, fontweight="bold", color=_INK)
+    figure.suptitle(f"{title}{tail}", x=0.01, ha="left", fontsize=12, fontweight="bold", color=INK)
     return figure
 
 
@@ -227,13 +216,13 @@ def _finish_overview(figure: Figure, axes: Axes) -> None:
     from matplotlib.patches import Patch
 
     axes.set_xlabel("excess over the noise floor [noise floors]")
-    axes.grid(axis="x", color=_GREY, alpha=0.3, lw=0.6)
+    axes.grid(axis="x", color=GREY, alpha=0.3, lw=0.6)
     axes.set_axisbelow(True)
     axes.tick_params(axis="y", length=0)
     handles = [
-        Patch(color=_VERMILLION, label="calibrated, beyond noise"),
-        Patch(color=_SKY, label="calibrated, within noise"),
-        Line2D([], [], ls="", marker="o", mfc="white", mec=_INK, ms=5, label="nominal stiffness"),
+        Patch(color=VERMILLION, label="calibrated, beyond noise"),
+        Patch(color=SKY, label="calibrated, within noise"),
+        Line2D([], [], ls="", marker="o", mfc="white", mec=INK, ms=5, label="nominal stiffness"),
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False, fontsize=8)
 
@@ -249,47 +238,11 @@ def _rows_with_gaps(fits: Sequence[ChannelFit]) -> list[float]:
     return rows
 
 
-def _path(fit: ChannelFit) -> NDArray[np.float64]:
-    record = fit.experiment.record
-    return record[record.prescribed]
-
-
-def _thinned(*series: NDArray[np.float64]) -> list[NDArray[np.float64]]:
-    """Every k-th sample, so that no line has more points than a picture can show."""
-    step = -(-len(series[0]) // _MOST_POINTS)
-    return [s[::step] for s in series]
-
-
-def _scale(channel: str, fit: ChannelFit) -> tuple[float, str]:
-    """Factor and unit in which a prescribed channel is shown."""
-    unit = fit.experiment.record.channels[channel].unit
-    return _SHOWN[channel] if channel in _SHOWN else _force_scale(unit, float(np.abs(_path(fit)).max()))
-
-
-def _force_scale(unit: str, largest: float) -> tuple[float, str]:
-    return (1e-3, f"k{unit}") if unit in ("N", "N m") and largest >= 5000 else (1.0, unit)
-
-
-def _varying(groups: Sequence[Sequence[ChannelFit]]) -> list[str]:
-    """Conditions that differ between the panels, so that naming them tells the panels apart."""
-    seen: dict[str, set[float]] = {}
-    for group in groups:
-        for name, value in group[0].experiment.conditions.items():
-            seen.setdefault(name, set()).add(value)
-    return [name for name, values in seen.items() if len(values) > 1]
-
-
 def _panel_title(group: Sequence[ChannelFit], conditions: Sequence[str], failing: Set[tuple[str, str]]) -> str:
     first = group[0].experiment
     ids = ", ".join(f.experiment.id for f in group[:4]) + (" ..." if len(group) > 4 else "")
-    told = ", ".join(_told(name, first.conditions) for name in conditions if name in first.conditions)
+    conditions_told = ", ".join(told(name, first.conditions) for name in conditions if name in first.conditions)
     excess = float(np.sqrt(np.mean([f.relative_excess**2 for f in group])))
     beyond = any((f.experiment.id, f.channel) in failing for f in group)
     verdict = f"excess {excess:.2g} floors" if beyond else "within noise"
-    return f"{ids}  ·  {first.set}  ·  {verdict}" + (f"\n{told}" if told else "")
-
-
-def _told(name: str, conditions: Mapping[str, float]) -> str:
-    factor, shift, unit = _CONDITION_SHOWN.get(name, (1.0, 0.0, _CONDITION_UNIT.get(name, "")))
-    label = "" if name in _CONDITION_SHOWN or name in _CONDITION_UNIT else f"{name} "
-    return f"{label}{factor * conditions[name] + shift:.4g} {unit}".rstrip()
+    return f"{ids}  ·  {first.set}  ·  {verdict}" + (f"\n{conditions_told}" if conditions_told else "")

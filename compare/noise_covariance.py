@@ -85,13 +85,13 @@ class NoiseCovariance:
 
     def whiten(self, x: Vector, signal: Vector) -> Vector:
         """K x with K^T K = C^-1, which turns noise into independent samples of variance one; x: (n,) or (n, k)."""
-        Q, shrink = self._update(signal)
+        Q, shrink = self.update(signal)
         white = self.whiten_samples(x)
         return white - Q @ (shrink[:, None] * (Q.T @ white) if white.ndim == 2 else shrink * (Q.T @ white))
 
     def log_determinant(self, signal: Vector) -> float:
         """ln det C."""
-        _, shrink = self._update(signal)
+        _, shrink = self.update(signal)
         of_samples = innovations(np.empty((len(signal), 0)), self.s**2, self.phi, self.white**2, np.empty((len(signal), 0)))
         return float(of_samples - 2 * np.log1p(-shrink).sum())
 
@@ -114,7 +114,7 @@ class NoiseCovariance:
         innovations(columns, self.s**2, self.phi, self.white**2, white)
         return white[:, 0] if x.ndim == 1 else white
 
-    def _update(self, signal: Vector) -> tuple[Vector, Vector]:
+    def update(self, signal: Vector) -> tuple[Vector, Vector]:
         """Q (n, k) and 1 - 1/sqrt(1 + S^2) of the rank-2 update in whitened coordinates: W U = Q S V^T."""
         U = np.column_stack([self.gain * signal, np.full(len(signal), self.offset)])
         U = U[:, np.any(U != 0, axis=0)]

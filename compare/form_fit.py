@@ -1,0 +1,156 @@
+"""One form of one effect fitted to one kind of experiment: a grid of shapes, then the best shape to the last digit.
+
+Strengths and stiffnesses follow from the Gram matrices for every shape (variable projection, Golub & Pereyra, SIAM J.
+Numer. Anal. 10 (1973) 413), so that the search runs over the shapes alone, of which a form has none to three.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize, minimize_scalar
+
+from compare.bench_design import Block
+from compare.gram import Grams, Scan, energy
+from effects.effect import ActiveEffect, Effect, Form
+
+Array = NDArray[np.float64]
+_LARGEST_GRID = 140
+
+
+@dataclass(frozen=True)
+class Site:
+    """Where an effect may act: a kind of experiment, and for sensors one channel of it."""
+
+    effect: Effect
+    block: int
+    kind: str
+    channel: str | None = None
+
+    def term(self, form: Form, shape: tuple[float, ...] = ()) -> ActiveEffect:
+        """The effect at this place in that form, without strengths."""
+        return ActiveEffect(self.effect, form, self.kind, self.channel, shape)
+
+
+@dataclass(frozen=True)
+class FormFit:
+    """A form at its best shape: the term, its Gram matrices, all coefficients (P,) and the left square residual."""
+
+    term: ActiveEffect
+    grams: Grams = field(repr=False)
+    x: Array
+    square: float
+
+    @property
+    def strength(self) -> Array:
+        """The coefficients of this term."""
+        k = len(self.term.form.strength)
+        return self.x[len(self.x) - k :]
+
+    @property
+    def active(self) -> ActiveEffect:
+        """The term with its strengths, ready for a model."""
+        return replace(self.term, strength=tuple(float(v) for v in self.strength))
+
+
+def shape_grid(form: Form, block: Block) -> list[tuple[float, ...]]:
+    """Shapes from which the search begins: every combination of the starts of the parameters, thinned to a limit."""
+    axes = []
+    for parameter in form.shape:
+        values = parameter.starts(block.paths) if parameter.starts else np.array([1.0])
+        axes.append(np.unique(np.clip(values, parameter.low, parameter.high)))
+    while np.prod([len(a) for a in axes], initial=1.0) > _LARGEST_GRID:
+        longest = max(range(len(axes)), key=lambda i: len(axes[i]))
+        axes[longest] = axes[longest][:: 2] if len(axes[longest]) > 3 else axes[longest][:1]
+    return [tuple(float(v) for v in shape) for shape in itertools.product(*axes)]
+
+
+def total_cost(grams: Grams) -> Array:
+    """Penalised square residual of all groups together, per shape; S is (m, G, ...) or (G, ...)."""
+    S = grams.S.sum(axis=-3)
+    mean, precision = grams.prior()
+    x = grams.fit(S, (mean, precision))
+    return energy(S, x) + np.sum(precision * (x - mean) ** 2, axis=-1)
+
+
+def fitted(grams: Grams, term: ActiveEffect) -> FormFit:
+    """The fit at the shape of `term`, whose Gram matrices (G, ...) are given."""
+    S = grams.S.sum(axis=0)
+    x = grams.fit(S)
+    return FormFit(term, grams, x, float(energy(S, x)))
+
+
+def refine(scan: Scan, term: ActiveEffect, grid: Grams, shapes: Sequence[tuple[float, ...]]) -> FormFit:
+    """The best shape of the grid, moved to the nearest minimum of the cost."""
+    costs = np.atleast_1d(total_cost(grid))
+    best = int(np.argmin(costs))
+    here = replace(term, shape=shapes[best])
+    if term.form.shape:
+        here = _search(scan, here, costs[best], _neighbours(shapes, best))
+    return fitted(scan.candidate(here), here)
+
+
+def _neighbours(shapes: Sequence[tuple[float, ...]], best: int) -> list[tuple[float, float]]:
+    """For every shape parameter the next lower and higher value on the grid (itself at an end of it)."""
+    around = []
+    for k, value in enumerate(shapes[best]):
+        axis = sorted({s[k] for s in shapes})
+        i = axis.index(value)
+        around.append((axis[max(i - 1, 0)], axis[min(i + 1, len(axis) - 1)]))
+    return around
+
+
+def _search(
+    scan: Scan, term: ActiveEffect, cost: float, around: Sequence[tuple[float, float]]
+) -> ActiveEffect:
+    parameters = term.form.shape
+    logs = [value > 0 and low > 0 for value, (low, _) in zip(term.shape, around, strict=True)]
+
+    def shape_of(u: Array) -> tuple[float, ...]:
+        values = [float(np.exp(v)) if log else float(v) for v, log in zip(u, logs, strict=True)]
+        return tuple(float(np.clip(v, p.low, p.high)) for v, p in zip(values, parameters, strict=True))
+
+    def cost_of(u: Array) -> float:
+        return float(total_cost(scan.candidate(replace(term, shape=shape_of(u)))))
+
+    start = np.array([np.log(v) if log else v for v, log in zip(term.shape, logs, strict=True)])
+    ends = np.array(
+        [[np.log(v) if log else v for v in pair] for pair, log in zip(around, logs, strict=True)], dtype=float
+    )
+    if len(parameters) == 1:
+        low, high = ends[0]
+        if high <= low:
+            return term
+        found = minimize_scalar(
+            lambda v: cost_of(np.array([v])), bounds=(low, high), method="bounded", options={"xatol": 2e-3 * (high - low)}
+        )
+        u, value = np.array([found.x]), float(found.fun)
+    else:
+        step = np.maximum((ends[:, 1] - ends[:, 0]) / 4, 1e-3)
+        simplex = np.vstack([start, start + np.diag(np.where(start + step > ends[:, 1], -step, step))])
+        found = minimize(
+            cost_of,
+            start,
+            method="Nelder-Mead",
+            options={"initial_simplex": simplex, "maxfev": 45 * len(parameters), "xatol": 1e-3, "fatol": 1e-2},
+        )
+        u, value = found.x, float(found.fun)
+    return replace(term, shape=shape_of(u)) if value < cost else term
+
+
+def sites(block: Block, index: int, library: Sequence[Effect]) -> list[Site]:
+    """Every place in a block where an effect of the library may act."""
+    found = []
+    has_cross = any(r.role == "cross" for record in block.records for r in record.readings)
+    for effect in library:
+        if block.kind not in effect.kinds:
+            continue
+        if effect.stage in ("filter", "bias"):
+            found += [Site(effect, index, block.kind, channel) for channel in block.channels]
+        elif effect.stage != "cross" or has_cross:
+            found.append(Site(effect, index, block.kind))
+    return found
