@@ -62,6 +62,24 @@ _PLAY = Parameter(
     starts=of_play(0.01, 1.0, 10),
 )
 
+_ROUNDING = Parameter(
+    "rounding",
+    "1",
+    "0 for hard contacts",
+    high=2.0,
+    plausible=(0.0, 2.0),
+    source="0 a sharp contact, 2 one that closes over many plays (by definition)",
+    starts=of_values(0.25, 0.5, 1.0),
+)
+
+
+def _way(side: str) -> Parameter:
+    meaning = f"way to the contact of {'positive' if side == 'up' else 'negative'} loads"
+    return Parameter(
+        f"play {side}", "play", meaning, plausible=(0.0, 0.05), source=_FITS, starts=of_play(0.005, 0.5, 7)
+    )
+
+
 EFFECT = Effect(
     name="backlash",
     kind="rig",
@@ -77,31 +95,7 @@ EFFECT = Effect(
     kinds=("tension", "torsion", "bending", "shear"),
     forms=(
         Form("free play", "fixture", _free_play, shape=(_PLAY,)),
-        Form(
-            "contacts that close gradually",
-            "fixture",
-            _gradual_play,
-            shape=(
-                _PLAY,
-                Parameter(
-                    "rounding", "1", "0 for hard contacts", high=2.0, plausible=(0.0, 2.0), starts=of_values(0.25, 0.5, 1.0)
-                ),
-            ),
-        ),
-        Form(
-            "unequal ways to either side",
-            "fixture",
-            _unequal_play,
-            shape=(
-                Parameter(
-                    "play_up", "play", "way to the contact of positive loads",
-                    plausible=(0.0, 0.05), source=_FITS, starts=of_play(0.005, 0.5, 7),
-                ),
-                Parameter(
-                    "play_down", "play", "way to the contact of negative loads",
-                    plausible=(0.0, 0.05), source=_FITS, starts=of_play(0.005, 0.5, 7),
-                ),
-            ),
-        ),
+        Form("contacts that close gradually", "fixture", _gradual_play, shape=(_PLAY, _ROUNDING)),
+        Form("unequal ways to either side", "fixture", _unequal_play, shape=(_way("up"), _way("down"))),
     ),
-)  # fmt: skip
+)

@@ -155,7 +155,11 @@ def _of_speed(paths: Sequence[BenchPath]) -> Array:
 
 def _limit(m: int, low: float = 0.05, high: float = 0.9) -> Parameter:
     return Parameter(
-        "limit", "strain", "strain of the specimen at which the grip gives way", starts=of_strain(low, high, m)
+        "limit",
+        "strain",
+        "strain of the specimen at which the grip gives way",
+        source="no common value",
+        starts=of_strain(low, high, m),
     )
 
 
@@ -173,7 +177,11 @@ def _way(m: int) -> Parameter:
 
 _SEEN = "slips of 0.1 to 50 mm at strains of 0.1 to 2 % beyond the limit"
 _WIDTH = Parameter(
-    "width", "strain", "strain beyond the limit in which it comes to an end", starts=of_strain(0.03, 1.0, 4)
+    "width",
+    "strain",
+    "strain beyond the limit in which it comes to an end",
+    source="no common value",
+    starts=of_strain(0.03, 1.0, 4),
 )
 _SPEED = Parameter(
     "speed", "m/s", "speed of the slip per strain beyond the limit", source="no common value", starts=_of_speed

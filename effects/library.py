@@ -43,6 +43,9 @@ NAMES = (
 )
 
 _registered: dict[str, Effect] = {}
+_loading: list[
+    bool
+] = []  # not empty while plug-ins are loaded: one that asks for the library sees the built-in effects
 
 
 def library() -> tuple[Effect, ...]:
@@ -132,9 +135,19 @@ def _built_in() -> tuple[Effect, ...]:
     return tuple(importlib.import_module(f"effects.{name.replace('-', '_')}").EFFECT for name in NAMES)
 
 
-@lru_cache(maxsize=1)
 def _plugged_in() -> tuple[tuple[Effect, ...], tuple[str, ...]]:
     """Effects of plug-ins, ordered by the name of their entry point, and sentences on those left out."""
+    if _loading:
+        return (), ()
+    _loading.append(True)
+    try:
+        return _load_plug_ins()
+    finally:
+        _loading.pop()
+
+
+@lru_cache(maxsize=1)
+def _load_plug_ins() -> tuple[tuple[Effect, ...], tuple[str, ...]]:
     found: dict[str, Effect] = {}
     notes: list[str] = []
     for point in sorted(entry_points(group=GROUP), key=lambda p: (p.name, p.value)):

@@ -54,7 +54,7 @@ def _form(name: str, respond: Callable[..., Array], *strength: Parameter, shape:
 
 
 _SHEET = "depends on the sensor: compare it with the drift in its data sheet"
-_TAU = Parameter("tau", "s", "time in which it settles", low=1e-6, starts=of_time(10, 2.0, 2.0))
+_TAU = Parameter("tau", "s", "time in which it settles", source="no common value", starts=of_time(10, 2.0, 2.0))
 
 EFFECT = Effect(
     name="sensor-drift",

@@ -98,7 +98,7 @@ EFFECT = Effect(
         Form("first order", "filter", _first_order, shape=(_time("tau", "time constant", 14),)),
         Form(
             "two stages", "filter", _second_order,
-            shape=(_time("tau", "time constant of one stage", 8), _time("tau_2", "time constant of the other stage", 8)),
+            shape=(_time("tau", "time constant of one stage", 8), _time("second tau", "time constant of the other stage", 8)),
         ),
         Form("pure delay", "filter", _delay, shape=(_time("delay", "time by which it is late", 14),)),
     ),
