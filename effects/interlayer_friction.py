@@ -21,7 +21,7 @@ from effects.slip_element import slip_record, slip_step
 
 Array = NDArray[np.float64]
 
-SLIP_STRAINS = np.geomspace(0.03, 3.0, 12)
+SLIP_STRAINS = np.geomspace(0.03, 3.0, 16)
 """Slip strains of the distributed form over the largest strain, at the typical tension."""
 
 SLIP_STRAIN = Parameter(
@@ -118,7 +118,7 @@ ONE_ELEMENT = Form(
     memory=1,
 )
 DISTRIBUTED = Form(
-    "distributed slip, twelve elements",
+    "distributed slip, sixteen elements",
     "section",
     _distributed,
     shape=(TENSION_SHARE,),

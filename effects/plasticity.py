@@ -20,7 +20,7 @@ from effects.slip_element import hardening_record, hardening_step, slip_record, 
 
 Array = NDArray[np.float64]
 
-YIELD_STRAINS = np.geomspace(0.03, 1.5, 10)
+YIELD_STRAINS = np.geomspace(0.03, 1.5, 14)
 """Yield strains of the many-element form over the largest strain."""
 
 YIELD_STRAIN = Parameter(
@@ -121,7 +121,7 @@ KINEMATIC = Form(
     memory=1,
 )
 MANY_ELEMENTS = Form(
-    "gradual yield, ten elements",
+    "gradual yield, fourteen elements",
     "section",
     _many,
     strength=tuple(

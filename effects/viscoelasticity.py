@@ -19,7 +19,7 @@ from effects.maxwell_branch import maxwell_record, maxwell_step
 
 Array = NDArray[np.float64]
 
-BRANCHES = 8
+BRANCHES = 10
 """Number of branches of the spectrum."""
 
 _TAU_SOURCE = "rubber relaxes on every time scale from milliseconds to months (general knowledge)"
@@ -129,7 +129,7 @@ ONE_BRANCH = Form(
     memory=1,
 )
 SPECTRUM = Form(
-    "spectrum of eight Maxwell branches",
+    "spectrum of ten Maxwell branches",
     "section",
     _spectrum,
     shape=(SHORTEST_TIME, LONGEST_TIME),

@@ -1,5 +1,7 @@
 """Stick-slip elements: Masing's rule, loop energy, independence of rate, and the exact return of a hardening limit."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -9,7 +11,7 @@ from effects.slip_element import hardening_record, hardening_step, slip_record, 
 def cycle(amplitude: float, cycles: int, n: int) -> np.ndarray:
     """Zigzag between +amplitude and -amplitude from 0, n steps a quarter, every turning point a sample."""
     corners = amplitude * np.array([0.0, *[1.0, -1.0] * cycles, 1.0])
-    parts = [np.linspace(a, b, (n if i == 0 else 2 * n) + 1)[1:] for i, (a, b) in enumerate(zip(corners, corners[1:]))]
+    parts = [np.linspace(a, b, (n if i == 0 else 2 * n) + 1)[1:] for i, (a, b) in enumerate(pairwise(corners))]
     return np.concatenate([[0.0], *parts])
 
 
