@@ -166,7 +166,7 @@ def _shared_legend(figure: Figure, repeats: bool) -> None:
     handles: list[Any] = [Line2D([], [], color=BLUE, lw=1.6, label="measured")]
     if repeats:
         handles.append(Line2D([], [], color=SKY, lw=1.6, label="its repeats"))
-    handles.append(Line2D([], [], color=VERMILLION, lw=1.6, label="calibrated linear model"))
+    handles.append(Line2D([], [], color=VERMILLION, lw=1.6, label="calibrated model"))
     handles.append(Patch(color=GREY, alpha=0.4, lw=0, label="noise, ± 2 floors"))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), frameon=False)
 
@@ -206,7 +206,7 @@ def overview_figure(comparison: Comparison) -> Figure:
         axes.text(0, start - 0.6, f" {name}", fontsize=8.5, fontweight="bold", color=INK, va="bottom")
     _finish_overview(figure, axes)
     tail = f" (the {_MOST_BARS} largest; {hidden} more are smaller)" if hidden else ""
-    title = "Where the linear model fails" if failing else "The linear model: no record stands out of its noise"
+    title = "Where the model fails" if failing else "No record stands out of its noise"
     figure.suptitle(f"{title}{tail}", x=0.01, ha="left", fontsize=12, fontweight="bold", color=INK)
     return figure
 

@@ -10,7 +10,7 @@ import numpy as np
 from made_campaign import NOMINAL, made_experiment
 from sound_campaign import TOML
 
-from compare import BenchModel, Campaign, Comparison, NominalSection, compare
+from compare import BenchModel, Campaign, Comparison, NoiseCovariance, NominalSection, compare
 from compare.findings import (
     Candidate,
     Check,
@@ -24,6 +24,7 @@ from compare.findings import (
     Step,
     Untestable,
 )
+from compare.misfit import misfit
 
 VERDICTS = ("none", "identified", "family-identified", "confusable", "unknown")
 EFFECTS = ("interlayer-friction", "plasticity", "viscous-damping", "stiffening")
@@ -44,7 +45,7 @@ def loops(friction: float, seed: int = 0) -> list:
     for g, (amplitude, tension, duration) in enumerate(plan):
         t = np.linspace(0, duration, 160)
         k = amplitude * np.sin(4 * np.pi * t / duration)
-        slip = np.tanh(8 * np.cos(4 * np.pi * t / duration)) * friction * np.sqrt(tension / 500)
+        slip = loop_of(t, tension, friction)
         for r in (0, 1):
             moment = 80 * k + slip + rng.normal(0, 0.4, t.size)
             e = made_experiment(
@@ -59,6 +60,19 @@ def loops(friction: float, seed: int = 0) -> list:
             table = replace(e.record, time=t)
             experiments.append(replace(e, table=table))
     return experiments
+
+
+def loop_of(t, tension: float, friction: float):
+    """Moment of the loop: its half width grows with the root of the tension."""
+    return np.tanh(8 * np.cos(4 * np.pi * t / t[-1])) * friction * np.sqrt(tension / 500)
+
+
+def with_loop(fit, friction: float):
+    """The same record beside a model that has the loop."""
+    e = fit.experiment
+    model = 80 * e.record["curvature"] + loop_of(e.record.time, e.conditions["axial tension"], friction)
+    noise = NoiseCovariance(s=0.4)
+    return replace(fit, model=model, after=misfit(fit.measured, model, noise))
 
 
 def made_campaign_of(friction: float, title: str = "Bench tests of a made cable") -> Campaign:
@@ -142,7 +156,7 @@ def made_findings(
     """Findings of that verdict; the comparison in them is real, everything else is written by hand."""
     noise_only = compared(0.0, title)
     comparison = noise_only if verdict == "none" else compared(friction, title)
-    after = replace(comparison, fits=noise_only.fits)
+    after = replace(comparison, fits=tuple(with_loop(fit, friction) for fit in comparison.fits))
     named = verdict in ("identified", "family-identified")
     rivals = ("interlayer-friction", "plasticity")
     errors = {
