@@ -19,8 +19,9 @@ from effects.reversible_law import reversible_form
 
 Array = NDArray[np.float64]
 
-POWERS = np.array([1.0, 2.0, 4.0, 6.0, 10.0])
-KNEES = np.linspace(0.1, 0.9, 9)
+POWERS = np.array([1.0, 2.0, 4.0, 8.0, 16.0])
+KNEES = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.88, 0.94])
+"""Knees of the convex form over the largest strain."""
 _NEAR_LOCK = 0.999  # of the locking strain: beyond, the law goes on straight
 
 LOCKING_STRAIN = Parameter(
@@ -81,10 +82,10 @@ LOCKING = reversible_form(
     strength=(_strength("locking stiffness", "scale of the stiffness that becomes infinite, over the linear one"),),
 )
 CONVEX = reversible_form(
-    "any convex law, nine knees",
+    "any convex law, ten knees",
     _knees,
     strength=tuple(
-        _strength(f"stiffening beyond {x:.1f}", f"stiffness added beyond {x:.1f} of the largest strain") for x in KNEES
+        _strength(f"stiffening beyond {x:g}", f"stiffness added beyond {x:g} of the largest strain") for x in KNEES
     ),
 )
 
