@@ -10,6 +10,7 @@ from homogenize.helical_cell import INTERFACES, HelicalCell, solve_helical_cell
 from homogenize.homogenization import Homogenization, homogenize_cable, slice_stiffness
 from homogenize.periodic_cell import PeriodicCell, solve_periodic_cell
 from homogenize.section_stiffness import ORDER, SectionInertia, SectionStiffness, pitch_average
+from homogenize.stiffness_bounds import LooseStiffness, StiffnessRange, allowed_stiffness, loose_stiffness
 from homogenize.volume_average import VolumeAverage, volume_average
 
 __all__ = [
@@ -18,13 +19,17 @@ __all__ = [
     "Check",
     "HelicalCell",
     "Homogenization",
+    "LooseStiffness",
     "PeriodicCell",
     "SectionInertia",
     "SectionStiffness",
+    "StiffnessRange",
     "VolumeAverage",
+    "allowed_stiffness",
     "axial_bounds",
     "check_cell",
     "homogenize_cable",
+    "loose_stiffness",
     "pitch_average",
     "slice_stiffness",
     "solve_helical_cell",
