@@ -12,9 +12,10 @@ import argparse
 import json
 import sys
 import time
+from collections.abc import Iterable
 from pathlib import Path
 
-from benchmarks.blind.judge import class_of, right
+from benchmarks.blind.judge import Row, class_of, right
 from benchmarks.blind.methods import BASELINE_NAMES, METHODS
 from benchmarks.blind.plan import RANGES
 from benchmarks.blind.runner import Job, labels_of, read_log, run
@@ -67,23 +68,24 @@ def _score(argv: list[str]) -> int:
     methods = [arguments.method, *(() if arguments.no_baselines else BASELINE_NAMES)]
     keep = str(arguments.keep) if arguments.keep else None
     jobs = [Job(seed, method, keep) for method in methods for seed in seeds]
-    total, begun, wrong = len(jobs), time.perf_counter(), 0
-    for done, row in enumerate(run(jobs, labels, log, arguments.workers), start=1):
-        wrong += row["method"] == arguments.method and not right(row)
-        each = (time.perf_counter() - begun) / done
-        end = "\n" if done % 100 == 0 or (not sys.stdout.isatty() and done % 25 == 0) else "\r"
-        if end == "\n" or sys.stdout.isatty():
-            print(
-                f"{done}/{total} ({row['method']}), {wrong} not right, {each:.2f} s each, {each * (total - done):.0f} s left  ",
-                end=end,
-                flush=True,
-            )
-    print()
+    _follow(run(jobs, labels, log, arguments.workers), len(jobs), arguments.method)
     text = report(log, methods, set(seeds), f"seeds {arguments.seeds}, sha256 of the labels {digest}")
     print(text)
     if arguments.out:
         arguments.out.write_text(text, encoding="utf-8")
     return 0
+
+
+def _follow(answers: Iterable[Row], total: int, main_method: str) -> None:
+    """Use up the answers and show how far they are: one line that is overwritten, or a line now and then in a file."""
+    begun, wrong, terminal = time.perf_counter(), 0, sys.stdout.isatty()
+    for done, row in enumerate(answers, start=1):
+        wrong += row["method"] == main_method and not right(row)
+        each = (time.perf_counter() - begun) / done
+        left = f"{each:.2f} s each, {each * (total - done):.0f} s left  "
+        if terminal or done % 25 == 0 or done == total:
+            end = "\r" if terminal and done < total else "\n"
+            print(f"{done}/{total} ({row['method']}), {wrong} not right, {left}", end=end, flush=True)
 
 
 def report(log: Path, methods: list[str], seeds: set[int] | None, note: str) -> str:

@@ -21,7 +21,7 @@ from benchmarks.blind.designs import make_bench
 from benchmarks.blind.noise import Noise
 from benchmarks.blind.plan import Case, case_of, draw_design, may_shear, possible_kinds
 from benchmarks.blind.strength import base_signal, channel_rms, cross_unit, distance, of_share, share_not_linear
-from benchmarks.blind.ties import twins, untestable
+from benchmarks.blind.ties import exactly_tied, looks_like_a_condition, twins, untestable
 from benchmarks.blind.truth import Truth, respond
 from benchmarks.blind.truths import ALL, LIBRARY
 
@@ -79,8 +79,12 @@ def _draw_benches(rng: np.random.Generator, case: Case) -> tuple[str, tuple[Benc
         clock = design != "no-clock"
         hidden = [untestable(name, bench, clock, second) for name in case.effects]
         tied = [bool(twins(name, bench, design)) for name in case.effects]
-        wanted = {"single": not any(hidden) and not any(tied), "pair": not any(hidden) and not any(tied)}
+        exact = [exactly_tied(name, bench, design) for name in case.effects]
+        wanted = {"single": not any(hidden) and not any(tied), "pair": not any(hidden) and not any(exact)}
         wanted |= {"tie": any(tied) and not any(hidden), "untestable": all(hidden)}
+        if case.group == "outside":
+            probe = ALL[case.effects[0]].draw(np.random.default_rng(0), bench).of_size(0.1)
+            wanted["outside"] = not looks_like_a_condition(bench, respond(bench, [probe])["main"])
         if wanted.get(case.group, True) or (case.design is not None and case.group == "single"):
             break
     two = case.two_kinds if case.two_kinds is not None else rng.random() < 0.12
@@ -145,6 +149,7 @@ def label_of(made: Hidden) -> dict[str, Any]:
         "achieved": round(share_not_linear(bench, truths), 5) if truths else 0.0,
         "D": round(whole, 2), "D_alone": [round(d, 2) for d in alone], "F0": round(_expected_f0(bench, whole), 3),
         "untestable": hidden_names, "twins": sorted({t for s in sets.values() for t in s}),
+        "tied": [n for n in sets if exactly_tied(n, bench, made.design)],
         "clock": made.clock, "second_channel": made.second,
     }  # fmt: skip
 

@@ -51,6 +51,11 @@ def wrong(row: Row) -> bool:
     return row["verdict"] == "crash" or (bool(named(row)) and not truth & set(named(row)))
 
 
+def false_single(row: Row) -> bool:
+    """Of an exact tie: a name without its set; of a near one: a name that is not the truth."""
+    return bool(row["effects"]) and not row["confusable"] and (bool(row["label"]["tied"]) or wrong(row))
+
+
 def false_positive(row: Row) -> bool:
     """Of a null: anything but none."""
     return row["verdict"] != "none"
@@ -64,7 +69,7 @@ def right(row: Row) -> bool:
     if kind == "outside":
         return row["verdict"] == "unknown"
     if kind == "tie":
-        return label["effects"][0] in row["confusable"] and not wrong(row)
+        return label["effects"][0] in (row["confusable"] if label["tied"] else named(row)) and not wrong(row)
     if kind == "pair":
         return set(label["effects"]) <= set(named(row)) and not set(row["effects"]) - set(label["effects"])
     if kind == "hidden":

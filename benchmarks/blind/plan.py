@@ -32,6 +32,7 @@ _TIES = (
     ("plasticity", "one-tension"), ("thermal-softening", "tied"), ("interlayer-friction", "amplitude-only"),
     ("rig-compliance", "amplitude-rate"), ("slack", "one-length"), ("end-load-introduction", "one-temperature"),
     ("plasticity", "amplitude-only"), ("tension-stiffening", "tied"), ("backlash", "one-length"), ("grip-slip", "one-length"),
+    ("interlayer-friction", "rich"), ("plasticity", "rich"),
 )  # fmt: skip
 _UNTESTABLE = (
     ("thermal-softening", "one-temperature"), ("tension-stiffening", "one-tension"), ("rig-compliance", "one-length"),
@@ -110,7 +111,8 @@ def case_of(seed: int) -> Case:
         return Case(seed, group, (effect,), design, noise, size, strength, two_kinds=False)
     if group == "untestable":
         effect, design = _UNTESTABLE[k % len(_UNTESTABLE)]
-        return Case(seed, group, (effect,), design, noise, size, strength, two_kinds=False)
+        variants = ("linear",) if effect == "rig-compliance" else ()  # a hardening frame shows at one length, too
+        return Case(seed, group, (effect,), design, noise, size, strength, variants=variants, two_kinds=False)
     if group == "outside":
         return Case(
             seed, group, (list(OUTSIDE)[k % len(OUTSIDE)],), "rich", noise, size, max(strength, 0.05), two_kinds=False

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from scipy.stats import beta
 
+from benchmarks.blind import judge
 from benchmarks.blind.judge import SEEN, VISIBLE, Row, class_of, exact, false_positive, first, named, right, wrong
 
 _D_EDGES = (0, 3, 6, 8, 10, 15, 20, 50, 100, np.inf)
@@ -69,6 +71,7 @@ def bars(rows: Sequence[Row]) -> list[Bar]:
     single, tie, pair = by["single"], by["tie"], by["pair"]
     out = [r for r in by["outside"] if r["label"]["F0"] >= VISIBLE]
     sets = [len(named(r)) for r in tie if named(r)]
+    judged = [r for r in rows if r.get("ratio") is not None]
     ratios = [r["ratio"] for r in single + pair + tie if r.get("ratio") is not None]
     return [
         *found,
@@ -82,8 +85,8 @@ def bars(rows: Sequence[Row]) -> list[Bar]:
         _share("pairs: both named", pair, lambda r: set(r["label"]["effects"]) <= set(named(r)), 0.90, True),
         _share("pairs: a spurious third", pair, _spurious, 0.05, False),
         Bar("held-out excess ratio, median", float(np.median(ratios)) if ratios else 0.0, len(ratios), 0.3, False, share=False),
-        _share("  held-out error worse than the base", [r for r in rows if r.get("ratio") is not None], lambda r: r["ratio"] > 1, 0.02, False),
-        _share("  confusable: one wrong name or a false single", tie, lambda r: bool(r["effects"]) and not r["confusable"], 0.05, False),
+        _share("  held-out error worse than the base", judged, lambda r: r["ratio"] > 1, 0.02, False),
+        _share("  confusable: a false single name", tie, judge.false_single, 0.05, False),
         _share("  outside, visible: anything accepted", out, lambda r: bool(named(r)), 0.05, False),
         _share("  too small or untestable: named wrongly", by["hidden"], wrong, 0.02, False),
         _share("  untestable: listed as such", [r for r in rows if r["label"]["untestable"]],
@@ -135,7 +138,7 @@ def detection_table(rows: Sequence[Row]) -> list[str]:
     """How often a single effect is seen at all and named, against its distance from the linear model."""
     single = [r for r in rows if r["label"]["group"] in ("single", "tie", "untestable")]
     lines = []
-    for low, high in zip(_D_EDGES[:-1], _D_EDGES[1:], strict=True):
+    for low, high in pairwise(_D_EDGES):
         some = [r for r in single if low <= r["label"]["D"] < high]
         if some:
             seen = np.mean([r["verdict"] not in ("none", "crash") for r in some])
@@ -180,7 +183,7 @@ def _variant(row: Row) -> str:
     return " + ".join(f"{e} ({v})" for e, v in zip(label["effects"], label["variants"]))
 
 
-def side_by_side(by_method: dict[str, list[Row]]) -> str:
+def side_by_side(by_method: Mapping[str, Sequence[Row]]) -> str:
     """One column of values per method."""
     columns = {name: bars(rows) for name, rows in by_method.items()}
     first_column = next(iter(columns.values()))

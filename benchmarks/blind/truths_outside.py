@@ -163,7 +163,8 @@ class WarmAndColdSofter(Outside):
     largest: ClassVar[float] = 0.9
 
     def factor(self, bench: Bench, strain: Array) -> Array:
-        return 1 - self.size * np.abs(bench.temperature[:, None] - 20) / 20
+        away = np.abs(bench.temperature - 20)[:, None] / 20
+        return np.asarray(1 - self.size * away)
 
 
 class LongerStiffnessFalls(Outside):

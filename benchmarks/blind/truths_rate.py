@@ -76,8 +76,10 @@ class Viscoelasticity(Truth):
             b = self.numbers["beta"]
             w = u**b * np.exp(-(u**b)) if b < 1 else np.ones_like(u)
             w /= w.sum()
-            return sum(wi * tau[0] * ui * (1 - np.exp(-s / (tau[0] * ui))) for wi, ui in zip(w, u, strict=True))
-        return sum(w * t * (1 - np.exp(-s / t)) for w, t in zip(self.numbers["weight"], tau, strict=True))
+            return np.zeros(1) + sum(
+                wi * tau[0] * ui * (1 - np.exp(-s / (tau[0] * ui))) for wi, ui in zip(w, u, strict=True)
+            )
+        return np.zeros(1) + sum(w * t * (1 - np.exp(-s / t)) for w, t in zip(self.numbers["weight"], tau, strict=True))
 
     def extra(self, bench: Bench, strain: Array) -> Array:
         return self.size * hereditary(bench, strain, self._integral)
