@@ -19,6 +19,7 @@ from effects.effect import (
 )
 from effects.library import find, library, library_notes, register, unregister
 from effects.own_effect import section_effect
+from effects.signature_plot import plot_signature
 
 __all__ = [
     "ActiveEffect",
@@ -34,6 +35,7 @@ __all__ = [
     "of_strain",
     "of_time",
     "of_values",
+    "plot_signature",
     "register",
     "section_effect",
     "unregister",

@@ -83,6 +83,15 @@ def say(sentence: str) -> None:
     console.print(sentence, soft_wrap=True)
 
 
+def plain(text: str) -> str:
+    """Text that is shown as it is, square brackets included.
+
+    >>> plain("load = K [strain + a]")
+    'load = K \\\\[strain + a]'
+    """
+    return escape(text)
+
+
 def engineering(value: float, unit: str) -> str:
     """Four digits with an SI prefix.
 
