@@ -32,6 +32,7 @@ DAMAGE_STRAIN = Parameter(
     "damage strain",
     "strain",
     "scale of the largest strain so far on which the softening grows",
+    low=1e-9,
     plausible=(0.0, np.inf),
     source="within the range tested (by definition: else the softening is constant or linear)",
     starts=of_strain(0.03, 3.0, 14),

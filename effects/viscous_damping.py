@@ -43,10 +43,14 @@ def _strength(meaning: str) -> Parameter:
 
 
 def _rate(path: BenchPath) -> Array:
-    """Strain rate (n,) at the samples, second order inside; 0 without a clock."""
-    if path.time is None or path.strain.size < 2:
-        return np.zeros(path.strain.size)
-    return np.asarray(np.gradient(path.strain, path.time), dtype=float)
+    """Strain rate (n,) at the samples: of the parabola through three of them, of the step at the ends; 0 without a clock."""
+    rate = np.zeros(path.strain.size)
+    if path.time is not None and path.strain.size > 1:
+        h = np.diff(path.time)
+        step = np.diff(path.strain) / h
+        rate[0], rate[-1] = step[0], step[-1]
+        rate[1:-1] = (h[1:] * step[:-1] + h[:-1] * step[1:]) / (h[1:] + h[:-1])
+    return rate
 
 
 def _rate_before(path: BenchPath) -> Array:

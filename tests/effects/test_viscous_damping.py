@@ -73,3 +73,10 @@ def test_needs_a_clock():
     assert EFFECT.why_untestable([path, sine(1.0)]) is None
     for form, shape in ((LINEAR, ()), (POWER_LAW, (0.5,)), (STEPWISE, ())):
         assert not form.respond(path, *shape).any()
+
+
+def test_exact_for_a_parabola_at_uneven_instants():
+    """Second order also where the clock is uneven: the rate of t^2 is 2 t inside the record, to rounding."""
+    time = np.cumsum(np.random.default_rng(0).uniform(0.1, 1.0, size=30))
+    rate = LINEAR.respond(BenchPath("tension", time**2, time))[:, 0]
+    np.testing.assert_allclose(rate[1:-1], 2 * time[1:-1], rtol=1e-11)
