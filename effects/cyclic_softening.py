@@ -33,7 +33,7 @@ DAMAGE_STRAIN = Parameter(
     "strain",
     "scale of the largest strain so far on which the softening grows",
     low=1e-9,
-    plausible=(0.0, np.inf),
+    plausible=(1e-9, np.inf),
     source="within the range tested (by definition: else the softening is constant or linear)",
     starts=of_strain(0.03, 3.0, 14),
 )

@@ -29,7 +29,7 @@ TOE = Parameter(
     "strain",
     "length of the toe",
     low=1e-9,
-    plausible=(0.0, np.inf),
+    plausible=(1e-9, np.inf),
     source="bedding-in of strands 0.05 to 0.5 % in tension (general knowledge); no common number in other kinds",
     starts=of_strain(0.01, 1.0, 14),
 )

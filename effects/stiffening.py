@@ -29,7 +29,7 @@ LOCKING_STRAIN = Parameter(
     "strain",
     "strain at which the stiffness becomes infinite",
     low=1e-9,
-    plausible=(0.0, np.inf),
+    plausible=(1e-9, np.inf),
     source="beyond the largest strain that was reached (by definition)",
     starts=of_strain(1.03, 4.0, 10),
 )
