@@ -14,21 +14,21 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from effects.effect import UNKNOWN, BenchPath, Effect, Form, Parameter, Starts, of_time
+from effects.effect import UNKNOWN, BenchPath, Effect, Form, Parameter, of_time
 from effects.maxwell_branch import maxwell_record, maxwell_step
 
 Array = NDArray[np.float64]
 
 BRANCHES = 10
-"""Number of branches of the spectrum."""
+RATIO = 3.5
+"""Number of branches of the spectrum, and the ratio of one relaxation time to the next: close to five decades in all."""
 
 _TAU_SOURCE = "rubber relaxes on every time scale from milliseconds to months (general knowledge)"
 
 
-def _end(low: float, high: float, index: int) -> Starts:
-    """One value only: the first or last of a range of times."""
-    both = of_time(2, low, high)
-    return lambda paths: both(paths)[[index]]
+def _longest(paths: Sequence[BenchPath]) -> Array:
+    """One value only: twice the longest record, beyond which a branch is a spring."""
+    return of_time(2, 0.5, 2.0)(paths)[-1:]
 
 
 RELAXATION_TIME = Parameter(
@@ -40,15 +40,6 @@ RELAXATION_TIME = Parameter(
     source=_TAU_SOURCE,
     starts=of_time(14, 0.5, 2.0),
 )
-SHORTEST_TIME = Parameter(
-    "shortest relaxation time",
-    "s",
-    "of the spectrum; half the sampling interval",
-    low=1e-6,
-    plausible=(1e-6, 1e7),
-    source=_TAU_SOURCE,
-    starts=_end(0.5, 2.0, 0),
-)
 LONGEST_TIME = Parameter(
     "longest relaxation time",
     "s",
@@ -56,7 +47,7 @@ LONGEST_TIME = Parameter(
     low=1e-6,
     plausible=(1e-6, 1e9),
     source=_TAU_SOURCE,
-    starts=_end(0.5, 2.0, -1),
+    starts=_longest,
 )
 
 
@@ -80,8 +71,13 @@ def _one(path: BenchPath, tau: float) -> Array:
     return _record(path, np.array([tau]))
 
 
-def _spectrum(path: BenchPath, shortest: float, longest: float) -> Array:
-    return _record(path, np.geomspace(shortest, longest, BRANCHES))
+def _times(longest: float) -> Array:
+    """Relaxation times of the spectrum, the fastest first."""
+    return longest * RATIO ** np.arange(1.0 - BRANCHES, 1.0)
+
+
+def _spectrum(path: BenchPath, longest: float) -> Array:
+    return _record(path, _times(longest))
 
 
 def _advance_one(
@@ -105,11 +101,10 @@ def _advance_spectrum(
     tension: Array,
     temperature: Array,
     state: Array,
-    shortest: float,
     longest: float,
     reference: BenchPath = UNKNOWN,
 ) -> tuple[Array, Array]:
-    stress = maxwell_step(state, strain - before, dt, np.geomspace(shortest, longest, BRANCHES))
+    stress = maxwell_step(state, strain - before, dt, _times(longest))
     return stress, stress
 
 
@@ -132,7 +127,7 @@ SPECTRUM = Form(
     "spectrum of ten Maxwell branches",
     "section",
     _spectrum,
-    shape=(SHORTEST_TIME, LONGEST_TIME),
+    shape=(LONGEST_TIME,),
     strength=tuple(
         _strength(f"fading stiffness {i + 1}", f"of branch {i + 1} from the fastest, over the long-term one")
         for i in range(BRANCHES)
