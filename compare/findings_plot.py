@@ -342,17 +342,16 @@ def confusion_figure(s: Separation) -> Figure:
     from matplotlib.figure import Figure
 
     m = len(s.effects)
-    side = min(_WIDTH, 2.6 + 0.36 * m)
-    figure = Figure(figsize=(side, side))
+    figure = Figure(figsize=(_WIDTH, 2.0 + 0.3 * m))
     axes = figure.add_subplot()
     table = 100 * np.asarray(s.confusion)
-    axes.imshow(table, cmap="Blues", vmin=0, vmax=50)
+    axes.imshow(table, cmap="Blues", vmin=0, vmax=50, aspect="auto")
     for (i, j), value in np.ndenumerate(table):
         if i != j and value >= 0.5:
             axes.text(j, i, f"{value:.0f}", ha="center", va="center", fontsize=7, color="white" if value > 28 else INK)
         elif i == j:
             axes.add_patch(_square(j, i))
-    axes.set_xticks(range(m), s.effects, rotation=90, fontsize=7.5)
+    axes.set_xticks(range(m), s.effects, rotation=35, ha="right", rotation_mode="anchor", fontsize=7.5)
     axes.set_yticks(range(m), s.effects, fontsize=7.5)
     axes.set_xlabel("taken for")
     axes.set_ylabel("true effect")

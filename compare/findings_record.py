@@ -14,6 +14,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from compare.campaign import Campaign
 from compare.comparison import Comparison
 from compare.comparison_record import comparison_record, finite_content, noise_rows
 from compare.findings import Candidate, Check, Findings, NextExperiment, ParameterValue, Separation, SetError, Step
@@ -81,7 +82,7 @@ def check_record(check: Check) -> dict[str, Any]:
     content: dict[str, Any] = {
         "schema": 1,
         "campaign": check.campaign.title,
-        "experiments": experiment_rows(check),
+        "experiments": experiment_rows(check.campaign),
         "noise": noise_rows(check.noise),
         "separation": _separation(check.separation),
         "untestable": [{"effect": u.effect, "why": u.why} for u in check.untestable],
@@ -90,10 +91,10 @@ def check_record(check: Check) -> dict[str, Any]:
     return _with_notes(content, tuple(dict.fromkeys((*check.noise_notes, *check.notes))))
 
 
-def experiment_rows(check: Check) -> list[dict[str, Any]]:
+def experiment_rows(campaign: Campaign) -> list[dict[str, Any]]:
     """One dictionary per experiment of the campaign; a sealed one shows its list entry only."""
     rows = []
-    for e in check.campaign.experiments:
+    for e in campaign.experiments:
         record = e.table
         row: dict[str, Any] = {"id": e.id, "kind": e.kind, "set": e.set, "specimen": e.specimen}
         row |= {"repeat_of": e.repeat_of, "conditions": dict(e.conditions)}

@@ -218,7 +218,7 @@ def first_screen(findings: Findings) -> tuple[tuple[str, str], ...]:
     """The five sentences with their titles."""
     return (
         ("Model vs data", model_against_data(findings)),
-        ("Missing effect", missing_effect(findings)),
+        ("Missing effect", " ".join([missing_effect(findings), *_found(findings)])),
         ("Why not", why_not(findings)),
         ("Held out", held_out(findings)),
         ("Next", what_next(findings)),
@@ -235,6 +235,12 @@ def with_units(conditions: Mapping[str, float]) -> dict[str, float]:
         name if "[" in name or name not in CONDITIONS else f"{name} [{CONDITIONS[name].unit}]": float(value)
         for name, value in conditions.items()
     }
+
+
+def _found(findings: Findings) -> list[str]:
+    """Parameters of what the verdict names, a sentence each."""
+    found = [(name, candidate_of(findings, name)) for name in named(findings)]
+    return [f"{name}: {', '.join(parameter_sentences(c)[:_MOST_NAMED])}." for name, c in found if c and c.parameters]
 
 
 def _condition(name: str, value: float) -> str:

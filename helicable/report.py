@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import datetime
-import importlib.resources
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -67,13 +66,25 @@ class Report:
         InputError
             If the file cannot be written.
         """
-        import jinja2
+        return write_page("report.html", path, report=self)
 
-        text = importlib.resources.files("helicable.templates").joinpath("report.html").read_text(encoding="utf-8")
-        template = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True).from_string(text)
-        page = template.render(report=self, version=__version__, date=datetime.date.today().isoformat())
-        try:
-            path.write_text(page, encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"{path} cannot be written: {error.strerror or error}; choose another folder.") from None
-        return path
+
+def write_page(template: str, path: Path, **content: object) -> Path:
+    """Fill one of the templates that ship, everything escaped, and write it.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
+    import jinja2
+
+    loader = jinja2.PackageLoader("helicable", "templates")
+    environment = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    today = datetime.date.today().isoformat()
+    page = environment.get_template(template).render(version=__version__, date=today, **content)
+    try:
+        path.write_text(page.lstrip(), encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{path} cannot be written: {error.strerror or error}; choose another folder.") from None
+    return path
