@@ -47,10 +47,13 @@ class Whitener:
 
     def __call__(self, Z: Array) -> Array:
         """The columns of Z (n, k) in white coordinates."""
-        white = self.samples(Z)
-        if self.Q.shape[1]:
-            white -= self.Q @ (self.shrink[:, None] * (self.Q.T @ white))
-        return white
+        return self.records(self.samples(Z))
+
+    def records(self, white: Array) -> Array:
+        """Sample-white columns with gain and offset of the record made white as well."""
+        if not self.Q.shape[1]:
+            return white
+        return white - self.Q @ (self.shrink[:, None] * (self.Q.T @ white))
 
     def samples(self, Z: Array) -> Array:
         """The same for the noise of the samples alone, without gain and offset of the record."""
@@ -64,7 +67,7 @@ class Whitener:
 class Reading:
     """One measured channel of one record, ready to be compared: target y (n,) and the factors of the base columns.
 
-    `role` is ``load`` for the main line and ``cross`` for the other load; `unit_bias` is what a bias of one unit of the
+    `signal` is what a random gain multiplies, in units of y. `role` is ``load`` for the main line and ``cross`` for the other load; `unit_bias` is what a bias of one unit of the
     channel does to y; `flipped` says that the path was measured.
     """
 
@@ -74,6 +77,7 @@ class Reading:
     weights: Array
     stiffness: float
     whiten: Whitener = field(repr=False)
+    signal: Array = field(repr=False)
     unit_bias: float = 1.0
     flipped: bool = False
 
@@ -240,10 +244,10 @@ def _readings(
             over = path_length(experiment, channel)
             target = record[record.prescribed] - K * (y / over - strain)
             whiten = Whitener.of(covariance, signal, K / over)
-            readings.append(Reading(channel, "load", target, weights, K, whiten, -K / over, True))
+            readings.append(Reading(channel, "load", target, weights, K, whiten, K / over * signal, -K / over, True))
         else:
             role = "load" if channel == KINDS[experiment.kind].load else "cross"
-            readings.append(Reading(channel, role, y, weights, K, Whitener.of(covariance, signal)))
+            readings.append(Reading(channel, role, y, weights, K, Whitener.of(covariance, signal), signal))
     return tuple(readings)
 
 

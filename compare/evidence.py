@@ -17,21 +17,19 @@ residual of the left-out group, summed, is the gain in nats. It ranks effects.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import log_ndtr, logsumexp
 
-from compare.bench_design import Block
 from compare.gram import Grams, energy
-from effects.effect import ActiveEffect
 
 Array = NDArray[np.float64]
 _SEED = 20230218
 _SPLITS = 12
 _INFLATION = (0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # extra scatter of records, in standard errors of one record's own
+_PREDICTED_WITH = (0.0, 2.0, 8.0, 32.0)
 
 
 def splits(groups: int) -> NDArray[np.bool_]:
@@ -49,8 +47,6 @@ def splits(groups: int) -> NDArray[np.bool_]:
 def log_marginal(grams: Grams, S: Array) -> Array:
     """Log marginal likelihood of summed Gram matrices S (..., P + 1, P + 1), up to a constant of the data alone."""
     mean, precision = grams.prior()
-    while precision.ndim < S.ndim - 1:
-        precision = precision[..., None, :]
     A = S[..., :-1, :-1] + precision[..., None] * np.eye(grams.P)
     b = S[..., :-1, -1] + precision * mean
     square = S[..., -1, -1] + np.sum(precision * mean**2, axis=-1)
@@ -66,53 +62,37 @@ def log_marginal(grams: Grams, S: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Scatter:
+class Null:
     """The model without the effect, for every amount of extra scatter between records: (v, G, ...) arrays."""
 
     S: Array = field(repr=False)
     log_det: Array = field(repr=False)
     grams: Grams = field(repr=False)
 
+    @classmethod
+    def of(cls, grams: Grams) -> Null:
+        """From the Gram matrices of the accepted model."""
+        pairs = [(a, b) for a in _INFLATION for b in _INFLATION]
+        return cls(*grams.scatter.marginal(grams.A, pairs), grams)
+
     def best(self, groups: NDArray[np.bool_]) -> float:
-        """Largest log likelihood of these groups, relative to the determinant at the scatter of the repeats."""
+        """Largest log likelihood of these groups over coefficients and scatter, up to a constant of the samples."""
         S = np.einsum("vgij,g->vij", self.S, groups.astype(float))
         x = self.grams.fit(S, prior=(np.ones(self.grams.P), np.full(self.grams.P, 1e-9)))
-        log_det = (self.log_det - self.log_det[0]) @ groups
-        return float(np.max(-0.5 * (energy(S, x) + log_det)))
+        return float(np.max(-0.5 * (energy(S, x) + self.log_det @ groups)))
 
 
-def scatter_variants(block: Block, accepted: Sequence[ActiveEffect], grams: Grams) -> Scatter:
-    """The accepted model under gains and offsets of the records that scatter more than the repeats showed.
+def log_e_value(candidate: Grams, null: Null, parts: NDArray[np.bool_]) -> float:
+    """Log e-value of a scan of shapes (m, G, ...), mean over the splits `parts` (splits, G).
 
-    Only the small matrices of V = (Z, y, m, 1), white but for gain and offset, are needed: the rest is Woodbury.
+    The prediction is a mixture over shapes and over a few amounts of scatter, so that an effect of the right kind and a
+    slightly wrong form still counts against a null that may call everything scatter.
     """
-    v, G, P = len(_INFLATION) ** 2, len(block.groups), grams.P + 1
-    S, log_det = np.zeros((v, G, P, P)), np.zeros((v, G))
-    group_of = {i: g for g, members in enumerate(block.groups) for i in members}
-    for i, record in enumerate(block.records):
-        for reading, Z in zip(record.readings, record.columns(accepted), strict=True):
-            noise, f = reading.whiten.noise, reading.whiten.factor
-            signal = Z[:, : grams.base].sum(axis=1) / f
-            V = np.column_stack([Z, reading.y, f * signal, np.full(len(Z), f)])
-            W = reading.whiten.samples(V)
-            A = W.T @ W
-            unit = 1 / np.maximum(np.diag(A)[-2:], 1e-300)
-            extra = np.array([(a**2, b**2) for a in _INFLATION for b in _INFLATION]) * unit
-            D = extra + np.array([noise.gain**2, noise.offset**2])
-            root = np.sqrt(D)
-            M = np.eye(2) + root[:, :, None] * A[-2:, -2:] * root[:, None, :]
-            U = root[:, :, None] * A[None, -2:, :-2]
-            S[:, group_of[i]] += A[:-2, :-2] - np.swapaxes(U, 1, 2) @ np.linalg.solve(M, U)
-            log_det[:, group_of[i]] += np.linalg.slogdet(M)[1]
-    return Scatter(S, log_det, grams)
-
-
-def log_e_value(candidate: Grams, null: Scatter, parts: NDArray[np.bool_]) -> float:
-    """Log e-value of a scan of shapes S (m, G, ...), mean over the splits `parts` (splits, G)."""
-    S = candidate.S
-    whole = log_marginal(candidate, S.sum(axis=1))
-    first = log_marginal(candidate, np.einsum("mgij,sg->msij", S, parts.astype(float)))
-    ratio = logsumexp(whole) - logsumexp(first, axis=0)
+    S, log_det = candidate.scatter.marginal(candidate.A, [(f, f) for f in _PREDICTED_WITH])
+    first = parts.astype(float)
+    whole = log_marginal(candidate, S.sum(axis=2)) - 0.5 * log_det.sum(axis=1)[:, None]
+    seen = log_marginal(candidate, np.einsum("vmgij,sg->svmij", S, first)) - 0.5 * (first @ log_det.T)[:, :, None]
+    ratio = logsumexp(whole) - logsumexp(seen, axis=(1, 2))
     rest = np.array([null.best(~part) for part in parts])
     return float(logsumexp(ratio - rest) - np.log(len(parts)))
 

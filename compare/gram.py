@@ -12,17 +12,68 @@ whatever the variance and the shape of the noise, because the noise of two recor
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.bench_design import Block
+from compare.bench_design import BenchRecord, Block
 from compare.bounded_least_squares import solve_bounded
 from effects.effect import ActiveEffect
 
 Array = NDArray[np.float64]
 _PRIOR_STRENGTH = 0.3  # prior standard deviation of an effect: its rms over that of the linear load
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """Random gain and offset of the readings of a block: variances D (R, 2), and the group of each reading (R,)."""
+
+    D: Array = field(repr=False)
+    group: NDArray[np.intp] = field(repr=False)
+    groups: int
+
+    @classmethod
+    def of(cls, block: Block) -> Scatter:
+        """As the repeats showed it."""
+        group_of = {i: g for g, members in enumerate(block.groups) for i in members}
+        D, group = [], []
+        for i, record in enumerate(block.records):
+            for reading in record.readings:
+                D.append((reading.whiten.noise.gain**2, reading.whiten.noise.offset**2))
+                group.append(group_of[i])
+        return cls(np.array(D), np.array(group, dtype=np.intp), len(block.groups))
+
+    def marginal(self, A: Array, inflation: Sequence[tuple[float, float]]) -> tuple[Array, Array]:
+        """Gram matrices (v, ..., G, P + 1, P + 1) and log determinants (v, G) with gain and offset integrated out.
+
+        Parameters
+        ----------
+        A : (..., R, P + 3, P + 3) array
+            Of the readings, white but for gain and offset.
+        inflation : sequence of (float, float)
+            v amounts of further scatter of gain and offset, in standard errors of the gain and offset of one record.
+        """
+        U = np.reshape(A, (-1, *A.shape[-3:]))[0, :, -2:, -2:]
+        unit = 1 / np.maximum(np.diagonal(U, axis1=1, axis2=2), 1e-300)
+        S, dets = [], []
+        for pair in inflation:
+            root = np.sqrt(self.D + np.array(pair) ** 2 * unit)
+            M = np.eye(2) + root[:, :, None] * U * root[:, None, :]
+            W = root[:, :, None] * A[..., -2:, :-2]
+            each = A[..., :-2, :-2] - np.swapaxes(W, -1, -2) @ (np.linalg.inv(M) @ W)
+            S.append(self._summed(each))
+            log_det = np.zeros(self.groups)
+            np.add.at(log_det, self.group, np.linalg.slogdet(M)[1])
+            dets.append(log_det)
+        return np.array(S), np.array(dets)
+
+    def _summed(self, each: Array) -> Array:
+        """Sum over the readings of each group: (..., R, P, P) to (..., G, P, P)."""
+        member = np.zeros((self.groups, len(self.group)))
+        member[self.group, np.arange(len(self.group))] = 1.0
+        flat = each.reshape(*each.shape[:-2], -1)
+        return (member @ flat).reshape(*each.shape[:-3], self.groups, *each.shape[-2:])
 
 
 @dataclass(frozen=True)
@@ -35,6 +86,8 @@ class Grams:
         V^T V of every group of repeats; the last column is the target.
     X : (..., G, P + 1, P + 1) array
         The same from products of different repeats only, scaled to all records of the group.
+    A : (..., R, P + 3, P + 3) array
+        V^T V of every reading, white but for gain and offset, with the columns Z, y, signal and 1.
     n : (G,) array
         Readings in every group.
     repeated : (G,) array of bool
@@ -43,14 +96,18 @@ class Grams:
         Coefficients that may not be negative.
     base : int
         How many of the columns are stiffnesses (prior about 1); the others are strengths (prior about 0).
+    scatter : Scatter
+        Random gain and offset of every reading.
     """
 
     S: Array = field(repr=False)
     X: Array = field(repr=False)
+    A: Array = field(repr=False)
     n: Array = field(repr=False)
     repeated: NDArray[np.bool_] = field(repr=False)
     positive: NDArray[np.bool_]
     base: int
+    scatter: Scatter = field(repr=False)
 
     @property
     def P(self) -> int:
@@ -99,63 +156,73 @@ def positive_flags(block: Block, terms: Sequence[ActiveEffect]) -> NDArray[np.bo
     return np.array(flags, dtype=np.bool_)
 
 
-def grams(block: Block, terms: Sequence[ActiveEffect]) -> Grams:
-    """Gram matrices of one model: S and X of shape (G, P + 1, P + 1)."""
-    V = [np.column_stack([record.whitened(terms), record.target]) for record in block.records]
-    return _assemble(block, terms, V)
-
-
 class Scan:
     """Gram matrices of many candidates beside the same accepted terms; what does not change is whitened once."""
 
     def __init__(self, block: Block, accepted: Sequence[ActiveEffect]) -> None:
         self.block, self.accepted = block, tuple(accepted)
-        self._fixed = [record.whitened(self.accepted) for record in block.records]
-        self._target = [record.target for record in block.records]
+        self._scatter = Scatter.of(block)
+        self._fixed = [_sample_white(record, self.accepted) for record in block.records]
+        self._rest = [
+            [
+                r.whiten.samples(np.column_stack([r.y, r.signal, np.full(len(r.y), r.whiten.factor)]))
+                for r in record.readings
+            ]
+            for record in block.records
+        ]
 
     def base(self) -> Grams:
         """Of the accepted terms alone."""
-        V = [np.column_stack([Z, y]) for Z, y in zip(self._fixed, self._target, strict=True)]
-        return _assemble(self.block, self.accepted, V)
+        return self._assemble(self.accepted, self._fixed)
 
     def candidate(self, term: ActiveEffect) -> Grams:
         """Of the accepted terms and one more."""
         terms = (*self.accepted, term)
         if term.form.stage in ("fixture", "filter"):
-            V = [
-                np.column_stack([record.whitened(terms), y])
-                for record, y in zip(self.block.records, self._target, strict=True)
-            ]
-        else:
-            V = [
-                np.column_stack([Z, record.whitened(terms, only=len(self.accepted)), y])
-                for record, Z, y in zip(self.block.records, self._fixed, self._target, strict=True)
-            ]
-        return _assemble(self.block, terms, V)
+            return self._assemble(terms, [_sample_white(record, terms) for record in self.block.records])
+        own = [_sample_white(record, terms, only=len(self.accepted)) for record in self.block.records]
+        both = [[np.hstack(z) for z in zip(a, b, strict=True)] for a, b in zip(self._fixed, own, strict=True)]
+        return self._assemble(terms, both)
 
     def grid(self, term: ActiveEffect, shapes: Sequence[tuple[float, ...]]) -> Grams:
-        """Of one more term at several shapes: S and X of shape (m, G, P + 1, P + 1)."""
-        from dataclasses import replace
-
+        """Of one more term at several shapes: S, X and A of shape (m, ...)."""
         each = [self.candidate(replace(term, shape=shape)) for shape in shapes]
-        return replace(each[0], S=np.stack([g.S for g in each]), X=np.stack([g.X for g in each]))
+        stacked = {name: np.stack([getattr(g, name) for g in each]) for name in ("S", "X", "A")}
+        return replace(each[0], **stacked)
+
+    def _assemble(self, terms: Sequence[ActiveEffect], columns: Sequence[Sequence[Array]]) -> Grams:
+        block, A, rows = self.block, [], []
+        for record, Zs, rests in zip(block.records, columns, self._rest, strict=True):
+            white = []
+            for reading, Z, rest in zip(record.readings, Zs, rests, strict=True):
+                V = np.hstack([Z, rest])
+                A.append(V.T @ V)
+                white.append(reading.whiten.records(V[:, :-2]))
+            rows.append(white[0] if len(white) == 1 else np.vstack(white))
+        stacked = np.array(A)
+        S = self._scatter.marginal(stacked, [(0.0, 0.0)])[0][0]
+        X, n, repeated = shared_products(block, rows)
+        return Grams(S, X, stacked, n, repeated, positive_flags(block, terms), len(block.base), self._scatter)
 
 
-def _assemble(block: Block, terms: Sequence[ActiveEffect], V: Sequence[Array]) -> Grams:
+def _sample_white(record: BenchRecord, terms: Sequence[ActiveEffect], only: int | None = None) -> list[Array]:
+    """Columns of every reading of a record, white but for gain and offset."""
+    return [r.whiten.samples(Z) for r, Z in zip(record.readings, record.columns(terms, only), strict=True)]
+
+
+def shared_products(block: Block, V: Sequence[Array]) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Products of different repeats (G, P, P), readings (G,) and whether there are repeats (G,), from white rows V."""
     P = V[0].shape[1]
-    S, X = np.zeros((len(block.groups), P, P)), np.zeros((len(block.groups), P, P))
-    n, repeated = np.zeros(len(block.groups)), np.zeros(len(block.groups), dtype=np.bool_)
+    X, n, repeated = np.zeros((len(block.groups), P, P)), np.zeros(len(block.groups)), []
     for g, members in enumerate(block.groups):
         pairs = 0
         for k, i in enumerate(members):
-            S[g] += V[i].T @ V[i]
             n[g] += len(V[i])
             for j in members[:k]:
                 if len(V[i]) == len(V[j]):
                     cross = V[i].T @ V[j]
                     X[g] += (cross + cross.T) / 2
                     pairs += 1
-        if pairs:
-            X[g] *= len(members) / pairs
-            repeated[g] = True
-    return Grams(S, X, n, repeated, positive_flags(block, terms), len(block.base))
+        X[g] *= len(members) / max(pairs, 1)
+        repeated.append(pairs > 0)
+    return X, n, np.array(repeated, dtype=np.bool_)

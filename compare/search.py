@@ -1,0 +1,287 @@
+r"""The search for the missing effects: try, add, replace, check backwards.
+
+One stage tries every effect at every place beside what is already accepted: its plain form first, its richer forms where
+the plain one is not enough. What wins is added with everything recalibrated; the next stage begins. Because a wrong effect
+with a rich form can hide two plain ones, all pairs of plain forms are tried as well, to first order in their shapes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.bench_design import Block
+from compare.evidence import LeftOut, Null, left_out, log_e_value, splits
+from compare.form_fit import FormFit, Site, refine, shape_grid, sites
+from compare.gram import Grams, Scan
+from compare.shared_misfit import SharedMisfit, shared_misfit
+from effects.effect import ActiveEffect, Effect, Form
+
+Array = NDArray[np.float64]
+Terms = tuple[tuple[ActiveEffect, ...], ...]
+_WORTH_FORM = 5.0  # nats by which a richer form has to predict better
+Progress = Callable[[float, str], None]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One form of one effect at one place, beside the accepted terms of its block.
+
+    `gain` (G,) is the left-out gain of every group in nats, `shared` (G,) the left-out misfit that repeats share.
+    """
+
+    site: Site
+    fit: FormFit = field(repr=False)
+    log_e: float
+    gain: Array = field(repr=False)
+    shared: Array = field(repr=False)
+
+    @property
+    def total(self) -> float:
+        """Left-out gain of all groups."""
+        return float(self.gain.sum())
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """An effect with the places where it is wanted, and what it does there altogether."""
+
+    effect: Effect
+    trials: tuple[Trial, ...]
+    log_e: float
+    gain: float
+    share: float
+    positive: int
+    folds: int
+
+    @property
+    def forms(self) -> tuple[str, ...]:
+        """Names of the forms, one per place."""
+        return tuple(t.fit.term.form.name for t in self.trials)
+
+
+class Stage:
+    """Everything about one set of accepted terms: its fit, its misfit, and what each effect would add.
+
+    Parameters
+    ----------
+    blocks : sequence of Block
+        One per kind of experiment.
+    accepted : tuple of tuples of ActiveEffect
+        Per block, shapes given.
+    library : sequence of Effect
+        What may be missing.
+    alpha : float
+        Chance that is allowed for naming anything where nothing is missing.
+    """
+
+    def __init__(
+        self, blocks: Sequence[Block], accepted: Terms, library: Sequence[Effect], alpha: float = 0.01
+    ) -> None:
+        self.blocks, self.accepted, self.library = tuple(blocks), accepted, tuple(library)
+        self.scans = [Scan(block, terms) for block, terms in zip(blocks, accepted, strict=True)]
+        self.base: list[Grams] = [scan.base() for scan in self.scans]
+        self.x = [g.fit(g.S.sum(axis=0)) for g in self.base]
+        self.left: list[LeftOut] = [left_out(g) for g in self.base]
+        self.sites = [s for i, block in enumerate(blocks) for s in sites(block, i, library)]
+        self.needed = float(np.log(max(len(self.sites), 1) / alpha))
+        self._null: dict[int, Null] = {}
+        self._trials: dict[tuple[int, str, str | None, str], Trial] = {}
+
+    def misfit(self) -> SharedMisfit:
+        """The misfit that repeats share, all blocks together."""
+        return shared_misfit(self.blocks, self.accepted, self.x)
+
+    def null(self, block: int) -> Null:
+        """The accepted model under more scatter, per block."""
+        if block not in self._null:
+            self._null[block] = Null.of(self.base[block])
+        return self._null[block]
+
+    def trial(self, site: Site, form: Form) -> Trial:
+        """Try one form at one place (once)."""
+        key = (site.block, site.effect.name, site.channel, form.name)
+        if key not in self._trials:
+            self._trials[key] = self._try(site, form)
+        return self._trials[key]
+
+    def _try(self, site: Site, form: Form) -> Trial:
+        block, scan = self.blocks[site.block], self.scans[site.block]
+        shapes = shape_grid(form, block)
+        grid = scan.grid(site.term(form, shapes[0]), shapes)
+        log_e = log_e_value(grid, self.null(site.block), splits(len(block.groups)))
+        fit = refine(scan, site.term(form, shapes[0]), grid, shapes)
+        near = left_out(fit.grams)
+        gain = 0.5 * (self.left[site.block].square - near.square)
+        return Trial(site, fit, log_e, gain, near.shared)
+
+    def plain(self) -> list[Attempt]:
+        """Every effect in its plain form, best first."""
+        return self._attempts({s: [s.effect.forms[0]] for s in self.sites})
+
+    def rich(self, names: Sequence[str]) -> list[Attempt]:
+        """The named effects in the best of all their forms, best first."""
+        return self._attempts({s: s.effect.forms for s in self.sites if s.effect.name in names})
+
+    def _attempts(self, forms: Mapping[Site, Sequence[Form]]) -> list[Attempt]:
+        by_effect: dict[str, list[Trial]] = {}
+        for site, choices in forms.items():
+            best = max((self.trial(site, form) for form in choices), key=lambda t: t.total)
+            by_effect.setdefault(site.effect.name, []).append(best)
+        attempts = [self.attempt(trials) for trials in by_effect.values()]
+        return sorted(attempts, key=lambda a: -a.gain)
+
+    def attempt(self, trials: Sequence[Trial]) -> Attempt:
+        """Put the places of one effect together: those where it passes the gate, or else the best one."""
+        wanted = [t for t in trials if t.log_e > self.needed and t.total > 0]
+        wanted = wanted or [max(trials, key=lambda t: t.log_e)]
+        log_e = float(np.sum([t.log_e for t in wanted])) if len(wanted) > 1 else wanted[0].log_e
+        touched = {t.site.block for t in wanted}
+        before = sum(float(self.left[b].shared.sum()) for b in touched)
+        fall = sum(float(self.left[t.site.block].shared.sum() - t.shared.sum()) for t in wanted)
+        gains = np.concatenate([t.gain for t in wanted])
+        share = fall / before if before > 0 else 0.0
+        return Attempt(
+            trials[0].site.effect,
+            tuple(wanted),
+            log_e,
+            float(sum(t.total for t in wanted)),
+            float(np.clip(share, -9.99, 1.0)),
+            int(np.count_nonzero(gains > 0)),
+            len(gains),
+        )
+
+    def with_attempt(self, attempt: Attempt) -> Stage:
+        """The stage after an effect is added, all shapes fitted again."""
+        terms = [list(t) for t in self.accepted]
+        for trial in attempt.trials:
+            terms[trial.site.block].append(trial.fit.term)
+        return Stage(self.blocks, polished(self.blocks, terms), self.library)
+
+    def without(self, name: str) -> Stage:
+        """The stage without one of its effects, the others in the shapes that they have."""
+        terms = tuple(tuple(t for t in block if t.effect.name != name) for block in self.accepted)
+        return Stage(self.blocks, terms, self.library)
+
+    def upgraded(self, names: Sequence[str]) -> Stage:
+        """The stage with the named effects in the forms that predict left-out experiments best."""
+        stage = self
+        for name in names:
+            rest = stage.without(name)
+            own = {(t.channel, t.kind): t.form.name for terms in stage.accepted for t in terms if t.effect.name == name}
+            places = [s for s in rest.sites if s.effect.name == name and (s.channel, s.kind) in own]
+            trials, better = [], False
+            for place in places:
+                now = next(f for f in place.effect.forms if f.name == own[place.channel, place.kind])
+                current = rest.trial(place, now)
+                best = max((rest.trial(place, form) for form in place.effect.forms), key=lambda t: t.total)
+                change = best.total > current.total + _WORTH_FORM
+                better |= change
+                trials.append(best if change else current)
+            if better:
+                stage = rest.with_attempt(rest.attempt(trials))
+        return stage
+
+    def active(self) -> list[ActiveEffect]:
+        """The accepted terms with their strengths."""
+        found = []
+        for block, terms, x in zip(self.blocks, self.accepted, self.x, strict=True):
+            at = len(block.base)
+            for term in terms:
+                k = len(term.form.strength)
+                found.append(replace(term, strength=tuple(float(v) for v in x[at : at + k]), reference=block.paths[0]))
+                at += k
+        return found
+
+    @property
+    def score(self) -> float:
+        """Half the whitened square residual on left-out groups, in nats; smaller is better."""
+        return 0.5 * sum(float(left.square.sum()) for left in self.left)
+
+    @property
+    def shared_left(self) -> float:
+        """Misfit on left-out groups that repeats share."""
+        return sum(float(left.shared.sum()) for left in self.left)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Accepted effects in the order in which they were added."""
+        return tuple(dict.fromkeys(t.effect.name for terms in self.accepted for t in terms))
+
+
+def polished(blocks: Sequence[Block], terms: Sequence[Sequence[ActiveEffect]], sweeps: int = 2) -> Terms:
+    """Shapes of all terms fitted together, one after the other in turn."""
+    result = []
+    for block, own in zip(blocks, terms, strict=True):
+        now = list(own)
+        if sum(bool(t.form.shape) for t in now) > 1 or (len(now) > 1 and any(t.form.shape for t in now)):
+            for _ in range(sweeps):
+                for i, term in enumerate(now):
+                    if term.form.shape:
+                        now[i] = _moved(block, now, i)
+        result.append(tuple(now))
+    return tuple(result)
+
+
+def _moved(block: Block, terms: Sequence[ActiveEffect], i: int) -> ActiveEffect:
+    """Term i at its best shape beside the others, searched near where it is."""
+    others = [t for k, t in enumerate(terms) if k != i]
+    scan, term = Scan(block, others), terms[i]
+    near = [term.shape]
+    for k, value in enumerate(term.shape):
+        for factor in (0.7, 1.4):
+            low, high = term.form.shape[k].low, term.form.shape[k].high
+            near.append((*term.shape[:k], float(np.clip(value * factor, low, high)), *term.shape[k + 1 :]))
+    return refine(scan, term, scan.grid(term, near), near).term
+
+
+def pair_gains(stage: Stage) -> list[tuple[float, Attempt, Attempt]]:
+    """All pairs of plain forms in one block, at the shapes that they have alone; left-out gain of both, best first.
+
+    Fixtures and filters enter by the change that they make, which is exact at their own shape.
+    """
+    found = []
+    for b, block in enumerate(stage.blocks):
+        trials = [stage.trial(s, s.effect.forms[0]) for s in stage.sites if s.block == b]
+        trials = [t for t in trials if t.total > 0]
+        if len(trials) < 2:
+            continue
+        columns, flags = _all_columns(stage, b, trials)
+        target = [r.target for r in block.records]
+        V = [np.column_stack([Z, y]) for Z, y in zip(columns, target, strict=True)]
+        S = np.array([sum((V[i].T @ V[i] for i in members), np.zeros((V[0].shape[1],) * 2)) for members in block.groups])
+        P0 = stage.base[b].P
+        starts = np.cumsum([0, *[f.size for f in flags]]) + P0
+        for i in range(len(trials)):
+            for j in range(i):
+                if trials[i].site.effect.name == trials[j].site.effect.name:
+                    continue
+                own = [*range(starts[i], starts[i + 1]), *range(starts[j], starts[j + 1])]
+                index = np.array([*range(P0), *own, S.shape[1] - 1])
+                positive = np.concatenate([stage.base[b].positive, flags[i], flags[j]])
+                part = replace(stage.base[b], S=S[:, index[:, None], index], X=S[:, index[:, None], index], positive=positive)
+                gain = float(np.sum(0.5 * (stage.left[b].square - left_out(part).square)))
+                found.append((gain, stage.attempt([trials[i]]), stage.attempt([trials[j]])))
+    return sorted(found, key=lambda item: -item[0])
+
+
+def _all_columns(stage: Stage, b: int, trials: Sequence[Trial]) -> tuple[list[Array], list[NDArray[np.bool_]]]:
+    """White columns of the accepted terms and of every trial, per record; and which of each trial's must be positive."""
+    block, accepted = stage.blocks[b], stage.accepted[b]
+    flags = []
+    parts: list[list[Array]] = [[record.whitened(accepted)] for record in block.records]
+    x = stage.x[b]
+    for trial in trials:
+        term = trial.fit.term
+        if term.form.strength:
+            flags.append(np.array([p.low >= 0 for p in term.form.strength]))
+            for part, record in zip(parts, block.records, strict=True):
+                part.append(record.whitened((*accepted, term), only=len(accepted)))
+        else:
+            flags.append(np.array([True]))
+            for part, record in zip(parts, block.records, strict=True):
+                part.append(((record.whitened((*accepted, term)) - part[0]) @ x)[:, None])
+    return [np.hstack(p) for p in parts], flags
