@@ -23,7 +23,9 @@ from benchmarks.blind.scorecard import scorecard, side_by_side
 
 
 def _arguments(argv: list[str]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.blind", description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.blind", description="Hidden-effect campaigns and the scorecard."
+    )
     parser.add_argument("--campaigns", type=int, default=600)
     parser.add_argument("--seeds", choices=sorted(RANGES), default="tuning")
     parser.add_argument("--first", type=int, default=0, help="start at this place of the range")
@@ -32,6 +34,7 @@ def _arguments(argv: list[str]) -> argparse.Namespace:
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--method", default="explain", choices=sorted(METHODS))
     parser.add_argument("--no-baselines", action="store_true")
+    parser.add_argument("--baseline-campaigns", type=int, default=200, help="baselines see the first so many only")
     parser.add_argument("--log", type=Path, help="default: out/blind-<seeds>.jsonl")
     parser.add_argument("--resume", action="store_true", help="go on with the log instead of beginning anew")
     parser.add_argument("--out", type=Path, help="write the scorecard to this Markdown file")
@@ -65,10 +68,12 @@ def _score(argv: list[str]) -> int:
     start = time.perf_counter()
     labels, digest = labels_of(seeds, arguments.workers)
     print(f"{len(labels)} labels made in {time.perf_counter() - start:.0f} s; sha256 {digest}", flush=True)
-    methods = [arguments.method, *(() if arguments.no_baselines else BASELINE_NAMES)]
     keep = str(arguments.keep) if arguments.keep else None
-    jobs = [Job(seed, method, keep) for method in methods for seed in seeds]
+    jobs = [Job(seed, arguments.method, keep) for seed in seeds]
+    if not arguments.no_baselines:
+        jobs += [Job(seed, "baselines") for seed in seeds[: arguments.baseline_campaigns]]
     _follow(run(jobs, labels, log, arguments.workers), len(jobs), arguments.method)
+    methods = [arguments.method, *(() if arguments.no_baselines else BASELINE_NAMES)]
     text = report(log, methods, set(seeds), f"seeds {arguments.seeds}, sha256 of the labels {digest}")
     print(text)
     if arguments.out:

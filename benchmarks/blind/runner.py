@@ -19,6 +19,8 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+from benchmarks.blind.methods import BASELINE_NAMES
+
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 LIMIT = 300
 """Seconds that one campaign may take."""
@@ -43,8 +45,8 @@ def _expired(_signal: int, _frame: object) -> None:
     raise TimeoutError(f"more than {LIMIT} s")
 
 
-def _answer(job: Job) -> dict[str, Any]:
-    """Make the folder, let the method explain it, and say what it said."""
+def _answer(job: Job) -> list[dict[str, Any]]:
+    """Make the folder, let the method explain it, and say what it said: one row, or one per baseline."""
     from benchmarks.blind.generator import make
     from benchmarks.blind.methods import METHODS
 
@@ -68,7 +70,9 @@ def _answer(job: Job) -> dict[str, Any]:
             }
         finally:
             signal.alarm(0)
-        return {"seed": job.seed, "method": job.method, **said, "seconds": round(time.perf_counter() - start, 3)}
+        seconds = round(time.perf_counter() - start, 3)
+        several: dict[str, Any] = said.get("several", {job.method: said})
+        return [{"seed": job.seed, "method": name, **one, "seconds": seconds} for name, one in several.items()]
 
 
 def _pool_map(function: Any, items: Sequence[Any], workers: int) -> Iterator[Any]:
@@ -104,12 +108,12 @@ def read_log(path: Path) -> dict[tuple[str, int], dict[str, Any]]:
 
 def run(jobs: Sequence[Job], labels: dict[int, dict[str, Any]], log: Path, workers: int) -> Iterator[dict[str, Any]]:
     """Answer every job that the log does not have yet, append it with its label, and hand it out."""
-    done = read_log(log)
+    done = {(method if method not in BASELINE_NAMES else "baselines", seed) for method, seed in read_log(log)}
     log.parent.mkdir(parents=True, exist_ok=True)
     left = [job for job in jobs if (job.method, job.seed) not in done]
     with log.open("a", encoding="utf-8") as file:
-        for answer in _pool_map(_answer, left, workers):
-            row = {**answer, "label": labels[answer["seed"]]}
-            file.write(json.dumps(row) + "\n")
+        for answers in _pool_map(_answer, left, workers):
+            rows = [{**answer, "label": labels[answer["seed"]]} for answer in answers]
+            file.write("".join(json.dumps(row) + "\n" for row in rows))
             file.flush()
-            yield row
+            yield rows[0]

@@ -153,7 +153,7 @@ class MidFrequencyPeak(Outside):
     def factor(self, bench: Bench, strain: Array) -> Array:
         levels = np.unique(bench.frequency)
         peak = np.isclose(bench.frequency, levels[len(levels) // 2])[:, None]
-        return 1 + self.size * peak
+        return np.asarray(1 + self.size * peak, dtype=np.float64)
 
 
 class WarmAndColdSofter(Outside):
@@ -164,7 +164,7 @@ class WarmAndColdSofter(Outside):
 
     def factor(self, bench: Bench, strain: Array) -> Array:
         away = np.abs(bench.temperature - 20)[:, None] / 20
-        return np.asarray(1 - self.size * away)
+        return 1 - self.size * away
 
 
 class LongerStiffnessFalls(Outside):
