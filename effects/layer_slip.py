@@ -37,62 +37,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geometry import Cable, Part
+from effects.helical_layer import HelicalLayer, layers_of
+from geometry import Cable
 from geometry.errors import InputError
-from geometry.helix import lay_angle
-from geometry.strand import Conductor, layer_radii
-from homogenize.stiffness_bounds import conductor_of, loose_stiffness, spring_bending, wire_modulus
+from homogenize.stiffness_bounds import loose_stiffness
 
 Array = NDArray[np.float64]
 
 FRICTION = (0.1, 1.0)
 """Friction coefficients to sweep: wire on wire 0.1 to 0.4, wire on rubber 0.3 to 1.0 (general knowledge)."""
 _AROUND = (np.arange(64) + 0.5) * np.pi / 128
-
-
-@dataclass(frozen=True)
-class HelicalLayer:
-    """Equal members on one radius.
-
-    Parameters
-    ----------
-    name : str
-    count : int
-        Members in the layer.
-    radius, lay_angle : float
-        [m], [rad] from the axis of what it is wound on.
-    EA : float
-        Of one member [N].
-    seat : float
-        Shear stiffness of what the member sits in [N/m^2]; infinite in direct contact.
-    strain_share : float
-        Axial strain of what it is wound on over that of the cable.
-    copies : float
-        How often the layer occurs in the cable, times the bending of its host over that of a straight one.
-    group : str
-        Layers of one group press on the ones further in.
-    """
-
-    name: str
-    count: int
-    radius: float
-    lay_angle: float
-    EA: float
-    seat: float = np.inf
-    strain_share: float = 1.0
-    copies: float = 1.0
-    group: str = ""
-
-    @property
-    def eta(self) -> float:
-        """Share of the stick force that the seat hands on."""
-        return float(1 / (1 + self.EA * np.sin(self.lay_angle) ** 2 / (self.seat * self.radius**2)))
-
-    @property
-    def stick_stiffness(self) -> float:
-        """k [N m^2]."""
-        cos = np.cos(self.lay_angle)
-        return float(self.copies * 0.5 * self.count * self.EA * self.radius**2 * cos**3 * self.eta)
 
 
 @dataclass(frozen=True)
@@ -205,7 +159,7 @@ def slip_of_layers(
         raise InputError(
             f"friction coefficient {friction_coefficient:g}, tension {tension:g} N and stiffnesses must not be negative."
         )
-    EA = EA_straight + sum(one.copies * one.strain_share * one.count * _axial(one) for one in layers)
+    EA = EA_straight + sum(one.copies * one.strain_share * one.count * one.axial_stiffness for one in layers)
     strain = tension / EA
     pulls = {id(one): _member_tension(one, strain) for one in layers}
     found = []
@@ -218,72 +172,8 @@ def slip_of_layers(
     return LayerSlip(EI_slip, tuple(found), float(EA))
 
 
-def _axial(layer: HelicalLayer) -> float:
-    return layer.EA * float(np.cos(layer.lay_angle)) ** 3
-
-
 def _member_tension(layer: HelicalLayer, strain: float) -> float:
     return layer.EA * float(np.cos(layer.lay_angle)) ** 2 * layer.strain_share * strain
-
-
-def layers_of(cable: Cable) -> tuple[HelicalLayer, ...]:
-    """Cores round the centre, strands in conductors and wires in strands, as far as the cable file knows them."""
-    cores: dict[str, list[Part]] = {}
-    for part in cable.parts:
-        if part.kind == "conductor":
-            cores.setdefault(f"{part.material.name} {part.centre_radius:.6g}", []).append(part)
-    layers: list[HelicalLayer] = []
-    for parts in cores.values():
-        first, count = parts[0], len(parts)
-        conductor = conductor_of(first, cable)
-        if first.centre_radius > 0 and cable.lay is not None:
-            EA = sum(p.material.E * np.pi * (p.outer_radius**2 - p.inner_radius**2) for p in _core(first, cable))
-            layers.append(
-                HelicalLayer(
-                    f"{conductor.name} cores", count, first.centre_radius, first.lay_angle, float(EA), _seat(first, cable),
-                    group="cores",
-                )
-            )  # fmt: skip
-        layers += _inside(conductor, first.lay_angle, count)
-    return tuple(layers)
-
-
-def _core(conductor: Part, cable: Cable) -> list[Part]:
-    return [part for part in cable.parts if part.member == conductor.member]
-
-
-def _seat(conductor: Part, cable: Cable) -> float:
-    rings = [part for part in _core(conductor, cable) if part.kind != "conductor"]
-    compliance = sum(np.log(p.outer_radius / p.inner_radius) / (2 * np.pi * p.material.G) for p in rings)
-    return float(1 / compliance) if compliance > 0 else np.inf
-
-
-def _inside(conductor: Conductor, beta: float, count: int) -> list[HelicalLayer]:
-    """Strands in a conductor that is laid at `beta` and occurs `count` times, and wires in its strands."""
-    strand = conductor.strand
-    if strand is None:
-        return []
-    share, copies = float(np.cos(beta)) ** 2, count * spring_bending(beta, strand.nu)
-    found = []
-    radii = layer_radii(conductor.layers, strand.diameter, f"conductor {conductor.name}")
-    wire = wire_modulus(strand) * np.pi * strand.wire_diameter**2 / 4
-    for i, (strands, radius) in enumerate(zip(conductor.layers, radii, strict=True)):
-        angle = lay_angle(radius, conductor.lay)
-        label = f"{conductor.name} strands"
-        if radius > 0 and angle > 0:
-            EA = strand.E * strand.area
-            found.append(
-                HelicalLayer(f"{label}, layer {i + 1}", strands, radius, angle, EA, np.inf, share, copies, label)
-            )
-        for j, (wires, r) in enumerate(zip(strand.layers, strand.radii, strict=True)):
-            gamma = lay_angle(r, strand.lay)
-            if r == 0 or gamma == 0:
-                continue
-            inner = f"wires of {label}, layer {i + 1}"
-            inside = share * float(np.cos(angle)) ** 2
-            times = copies * strands * spring_bending(angle, strand.nu)
-            found.append(HelicalLayer(f"{inner}, {j + 1}", wires, r, gamma, wire, np.inf, inside, times, inner))
-    return found
 
 
 def layer_slip(cable: Cable, friction_coefficient: float, tension: float) -> LayerSlip:
@@ -299,14 +189,14 @@ def layer_slip(cable: Cable, friction_coefficient: float, tension: float) -> Lay
     layers = layers_of(cable)
     straight = [p for p in cable.parts if (p.centre_radius == 0 or cable.lay is None) and p.kind != "interstices"]
     cores = [one for one in layers if one.group == "cores"]
-    EA = float(sum(p.material.E * p.area for p in straight) + sum(one.count * _axial(one) for one in cores))
+    EA = float(sum(p.material.E * p.area for p in straight) + sum(one.count * one.axial_stiffness for one in cores))
     if not layers:
         raise InputError(f"{cable.name}: no lay of cores, strands or wires is known, so that no layer can slip.")
     found: list[SlippingLayer] = []
     for group in dict.fromkeys(one.group for one in layers):
         # each group carries the force that strains it like its host; what else the host is made of is no matter here
         members = [one for one in layers if one.group == group]
-        own = sum(one.copies * one.strain_share * one.count * _axial(one) for one in members)
+        own = sum(one.copies * one.strain_share * one.count * one.axial_stiffness for one in members)
         found += slip_of_layers(
             members, EI_slip=0.0, EA_straight=0.0, friction_coefficient=friction_coefficient, tension=tension * own / EA
         ).layers

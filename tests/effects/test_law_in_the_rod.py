@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from beam import read_scenario, tow
 from beam.generalized_alpha import Integrator, StepSettings
 from beam.rod import Rod
 from beam.rod_model import RodModel, Support
+from beam.scenario import published_section
 from beam.shape import straight
 from beam.statics import StaticSettings, equilibrium
 from effects import ActiveEffect, BenchPath, find
@@ -273,3 +275,20 @@ def test_neutral_effects_leave_the_rod_linear():
     E, before = states()
     S, T, _ = law.advance(E, before, 1.0, np.zeros((5, law.memory)), True)
     assert law.memory == 0 and not S.any() and T is not None and not T.any()
+
+
+def test_towing_with_friction_between_the_layers():
+    """The bend travels through the cable and every section slips twice: more pull, and the balance is closed to 1e-5."""
+    scenario = read_scenario("intelligent-horizontal").changed(
+        cable__elements=88, time__duration="3 s", drive__ramp_end="1.5 s"
+    )
+    section = published_section(scenario)
+    law = RodLaw(section, [active("interlayer-friction", "bending", (0.5, 0.7), (2.0,), typical_tension=500.0)])
+    linear, slipping = tow(scenario, section), tow(scenario, section, law=law)
+    assert slipping.status == "completed"
+    assert abs(slipping.balance_error) < 1e-5
+    energy = slipping.dataset["energy"].sel(source="section_law").values
+    assert energy[-1] - energy[len(energy) // 2] > 1.0
+    gain = [run.frames.ends["pull_force"][-1][0] - run.frames.ends["pull_force"][0][0] for run in (linear, slipping)]
+    assert gain[1] > 1.05 * gain[0]
+    assert "section_law" not in linear.dataset["source"].values
