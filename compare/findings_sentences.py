@@ -204,6 +204,12 @@ def error_sentence(e: SetError) -> str:
 def what_next(findings: Findings) -> str:
     """Sentence 5: the experiment that would separate the rivals."""
     n = findings.next_experiment
+    if n is None and findings.verdict == "unknown":
+        worst = findings.comparison.where_it_fails()
+        place = f" ({worst[0].experiment.id})" if worst else ""
+        return (
+            f"Vary one condition at a time around where the excess is largest{place}: what it depends on is not known."
+        )
     if n is None:
         return "No rivals are left that another experiment of these kinds would have to separate."
     conditions = listed([_condition(k, v) for k, v in with_units(n.conditions).items()])

@@ -319,5 +319,7 @@ def _next(f: Findings) -> Panel:
                 "Chance of naming the wrong one", ("", "P(wrong)"), [(k, f"{v:.2g}") for k, v in chances], right=(1,)
             ),
         ]
-    light = Light("good", "nothing to separate") if n is None else Light("mind", "an experiment is suggested")
+    light = Light("good", "nothing to separate")
+    if n is not None or f.verdict == "unknown":
+        light = Light("mind", "an experiment is suggested" if n is not None else "not known yet")
     return Panel("Next experiment", what_next(f), (), tables, light, how_computed.NEXT)
