@@ -6,7 +6,7 @@ r"""Compliance of the rig: the frame, the load cell and the grips stretch with t
 c is the length of cable that is as compliant as the rig: EA over the stiffness of the frame [N/m] in tension, GJ over
 that of the drive [N m/rad] in torsion. At one length the apparent stiffness K/(1 + c/L) is just another stiffness, so
 that only lengths show it; and lengths alone cannot tell it from a load that enters through the sheath
-(``end-load-introduction``), which has the same law. Source: machine stiffness in series, e.g. ASTM E111, note on extension
+(``end-load-introduction``), which has the same law. A specimen of unknown length is left as it is. Source: machine stiffness in series, e.g. ASTM E111, note on extension
 measured between the grips.
 """
 
@@ -20,7 +20,9 @@ _LENGTHS_DIFFER = 1.05  # ratio of lengths below which they count as equal
 
 
 def _in_series(path: BenchPath, compliance: float) -> Array:
-    return path.strain / (1.0 + compliance / (path.length or 1.0))
+    if path.length is None:
+        return path.strain
+    return path.strain / (1.0 + compliance / path.length)
 
 
 def one_length(paths: Sequence[BenchPath]) -> str | None:
@@ -51,9 +53,9 @@ EFFECT = Effect(
             shape=(
                 Parameter(
                     "compliance", "m", "length of cable as compliant as the rig",
-                    plausible=(0.0, 3.0),
-                    source="cables of EA 0.1 to 10 MN in frames of 2 to 100 MN/m: 1 mm to 5 m, above 3 m a frame is unusable",
-                    starts=of_length(0.003, 3.0, 14),
+                    plausible=(0.0, 5.0),
+                    source="cables of EA 0.1 to 10 MN in frames of 2 to 100 MN/m: 1 mm to 5 m",
+                    starts=of_length(0.005, 2.0, 16),
                 ),
             ),
         ),

@@ -91,8 +91,8 @@ EFFECT = Effect(
     equation="tau dy/dt + y = x, y(0) = x(0)",
     source="first-order instrument, e.g. Doebelin, Measurement Systems, ch. 3",
     needs="a clock, and the same path at two rates at least: at one rate a lag and viscous damping look alike",
-    signature="a loop that is passed so that the channel comes late: wide where the path is fast, gone where it rests;"
-    " all channels of another sensor keep time",
+    signature="a loop on which the channel comes late: wide where the path is fast, gone where it rests; the channels of"
+    " other sensors keep time",
     kinds=("tension", "torsion", "bending", "shear"),
     forms=(
         Form("first order", "filter", _first_order, shape=(_time("tau", "time constant", 14),)),
