@@ -6,8 +6,8 @@ r"""Compliance of the rig: the frame, the load cell and the grips stretch with t
 c is the length of cable that is as compliant as the rig: EA over the stiffness of the frame [N/m] in tension, GJ over
 that of the drive [N m/rad] in torsion. At one length the apparent stiffness K/(1 + c/L) is just another stiffness, so
 that only lengths show it; and lengths alone cannot tell it from a load that enters through the sheath
-(``end-load-introduction``), which has the same law. A specimen of unknown length is left as it is. Source: machine stiffness in series, e.g. ASTM E111, note on extension
-measured between the grips.
+(``end-load-introduction``), which has the same law. A specimen of unknown length is left as it is. Source: springs in
+series, e.g. ASTM E111, on extension measured between the grips.
 """
 
 from __future__ import annotations
