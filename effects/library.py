@@ -11,7 +11,7 @@ import difflib
 import importlib
 import logging
 from functools import lru_cache
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint, distributions, entry_points
 from typing import Any
 
 from effects.effect import Effect
@@ -150,7 +150,7 @@ def _plugged_in() -> tuple[tuple[Effect, ...], tuple[str, ...]]:
 def _load_plug_ins() -> tuple[tuple[Effect, ...], tuple[str, ...]]:
     found: dict[str, Effect] = {}
     notes: list[str] = []
-    for point in sorted(entry_points(group=GROUP), key=lambda p: (p.name, p.value)):
+    for point in sorted(_points(notes), key=lambda p: (p.name, p.value)):
         try:
             for effect in _loaded(point):
                 taken = effect.name in NAMES or effect.name in found
@@ -159,12 +159,30 @@ def _load_plug_ins() -> tuple[tuple[Effect, ...], tuple[str, ...]]:
                     notes.append(f"plug-in {point.name} ({point.value}) is left out: {wrong}")
                 else:
                     found[effect.name] = effect
-        except Exception as error:  # whatever a plug-in raises, the library stays usable without it
+        except (Exception, SystemExit) as error:  # whatever a plug-in raises, the library stays usable without it
             told = f"{type(error).__name__}: {error}"
             notes.append(f"plug-in {point.name} ({point.value}) is left out: it cannot be loaded ({told})")
     for note in notes:
         logger.warning("%s", note)
     return tuple(found.values()), tuple(notes)
+
+
+def _points(notes: list[str]) -> list[EntryPoint]:
+    """Entry points of the group; a package whose list of them cannot be read is noted and left out."""
+    try:
+        return list(entry_points(group=GROUP))
+    except Exception as error:  # one broken list stops the reading of all: read package by package
+        logger.debug("entry points are read package by package: %s", error)
+    found: list[EntryPoint] = []
+    for package in distributions():
+        try:
+            found += package.entry_points.select(group=GROUP)
+        except Exception as error:
+            name = package.metadata["Name"]
+            notes.append(
+                f"package {name} is left out: its entry points cannot be read ({type(error).__name__}: {error})"
+            )
+    return found
 
 
 def _loaded(point: EntryPoint) -> list[Effect]:

@@ -150,14 +150,18 @@ POINTS = {
 }
 
 
+def install(folder, name, points):
+    """A package as an installer would leave it: its name, its version, its entry points."""
+    info = folder / f"{name}-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text("[helicable.effects]\n" + "\n".join(points) + "\n")
+
+
 def test_plug_ins_of_installed_packages(tmp_path, monkeypatch, fresh_plug_ins, caplog):
     """A package with entry points: what works is in the library, what does not is left out with a note, and nothing stops."""
     (tmp_path / "yard_effects.py").write_text(PLUG_IN)
-    info = tmp_path / "yard_effects-1.0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: yard-effects\nVersion: 1.0\n")
-    lines = "\n".join(f"{name} = {value}" for name, value in POINTS.items())
-    (info / "entry_points.txt").write_text(f"[helicable.effects]\n{lines}\n")
+    install(tmp_path, "yard_effects", [f"{name} = {value}" for name, value in POINTS.items()])
     monkeypatch.syspath_prepend(str(tmp_path))
     with caplog.at_level(logging.WARNING, logger="effects.library"):
         names = [e.name for e in library()]
@@ -178,3 +182,15 @@ def test_plug_ins_of_installed_packages(tmp_path, monkeypatch, fresh_plug_ins, c
 def test_without_plug_ins_there_are_no_notes(fresh_plug_ins):
     assert library_notes() == ()
     assert all(isinstance(e, Effect) for e in library())
+
+
+def test_a_package_with_unreadable_entry_points_does_not_take_the_others_with_it(tmp_path, monkeypatch, fresh_plug_ins):
+    (tmp_path / "deck_effects.py").write_text(PLUG_IN)
+    (tmp_path / "quitting_effects.py").write_text("import sys; sys.exit(3)")
+    install(tmp_path, "torn", ["a line without a sign"])
+    install(tmp_path, "deck_effects", ["deck = deck_effects:ONE", "quit = quitting_effects:ONE"])
+    monkeypatch.syspath_prepend(str(tmp_path))
+    assert [e.name for e in library()][18:] == ["yard-play"]
+    torn, quits = library_notes()
+    assert torn.startswith("package torn is left out") and "quit" in quits and "SystemExit" in quits
+    sys.modules.pop("deck_effects", None)
