@@ -12,21 +12,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.comparison import ChannelFit
-from compare.experiment import Experiment
+from compare.excess_plot import closed_loops, conditions_figure, covariates, loop_energy_figure, where_figure
 from compare.findings import Findings, Separation
 from compare.findings_sentences import BASELINES, listed, named
 from compare.kinds import SETS
-from compare.loading import amplitude, loop_energy, mean_rate
-from compare.plot_style import BLUE, GREEN, GREY, INK, SKY, STYLE, VERMILLION, told, varying
-from compare.residual_plot import record_figure, same_record, worst_and_typical
+from compare.plot_style import BLUE, GREEN, GREY, INK, PAGE_WIDTH, SKY, STYLE, VERMILLION, title
+from compare.residual_plot import record_figure, worst_and_typical
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_MOST_ROWS, _MOST_BARS = 40, 14
-_WIDTH = 7.2
+_MOST_BARS = 14
 
 
 def plot_findings(findings: Findings, folder: str | Path) -> dict[str, Path]:
@@ -69,7 +66,7 @@ def _pictures(f: Findings) -> Mapping[str, Callable[[], Figure]]:
         pictures["where"] = lambda: where_figure(f)
         if covariates(f):
             pictures["conditions"] = lambda: conditions_figure(f)
-        if any("loop" in m.name.lower() for m in f.marks) and len(_loops(f)) > 2:
+        if any("loop" in m.name.lower() for m in f.marks) and len(closed_loops(f)) > 2:
             pictures["loop-energy"] = lambda: loop_energy_figure(f)
     if f.ranking:
         pictures["ranking"] = lambda: ranking_figure(f)
@@ -82,152 +79,12 @@ def _pictures(f: Findings) -> Mapping[str, Callable[[], Figure]]:
     return pictures
 
 
-def where_figure(f: Findings) -> Figure:
-    """Map of the excess over the noise floor: experiments and channels downwards, before and after sideways."""
-    from matplotlib.figure import Figure
-
-    fits = sorted(f.comparison.fits, key=lambda x: -x.relative_excess)[:_MOST_ROWS]
-    fits = sorted(fits, key=lambda x: (x.experiment.kind, SETS.index(x.experiment.set), x.channel, x.experiment.id))
-    values = [[x.relative_excess] for x in fits]
-    heads = ["base model"]
-    if f.after is not f.comparison:
-        heads.append("with effects")
-        values = [[x.relative_excess, same_record(x, f.after).relative_excess] for x in fits]
-    figure = Figure(figsize=(_WIDTH, 1.3 + 0.21 * len(fits)))
-    axes = figure.add_subplot()
-    table = np.array(values)
-    norm = _map_norm(max(3.0, float(table.max())))
-    axes.imshow(table, aspect="auto", cmap="YlOrBr", norm=norm)
-    for (i, j), value in np.ndenumerate(table):
-        dark = float(norm(value)) > 0.6
-        axes.text(j, i, f"{value:.2g}", ha="center", va="center", fontsize=7.5, color="white" if dark else INK)
-    many = varying([x.experiment for x in fits])
-    axes.set_xticks(range(len(heads)), heads)
-    axes.xaxis.tick_top()
-    axes.set_yticks(range(len(fits)), [_row_name(x) for x in fits], fontsize=7.5)
-    for i, x in enumerate(fits):
-        words = ", ".join(told(name, x.experiment.conditions) for name in many if name in x.experiment.conditions)
-        axes.text(len(heads) - 0.45, i, words, va="center", fontsize=7, color=INK, clip_on=False)
-    axes.tick_params(length=0)
-    axes.spines[:].set_visible(False)
-    figure.get_layout_engine().set(rect=(0, 0, 0.74 if many else 1.0, 1))  # pyright: ignore
-    _title(figure, "Excess over the noise floor [noise floors]", f.comparison.fits, fits)
-    return figure
-
-
-def _map_norm(top: float) -> Any:
-    from matplotlib.colors import PowerNorm
-
-    return PowerNorm(0.5, 0.0, top)
-
-
-def _row_name(fit: ChannelFit) -> str:
-    return f"{fit.experiment.id}  {fit.experiment.kind} {fit.channel}  ({fit.experiment.set})"
-
-
-def _title(figure: Figure, title: str, all_of: Any = (), shown: Any = ()) -> None:
-    tail = f", the {len(shown)} largest of {len(all_of)}" if len(shown) < len(all_of) else ""
-    figure.suptitle(title + tail, x=0.01, ha="left", fontsize=11, fontweight="bold", color=INK)
-
-
-def covariates(f: Findings) -> dict[str, np.ndarray]:
-    """What varied between the compared records: amplitude, rate and recorded conditions, each (n,), NaN where unknown."""
-    fits = f.comparison.fits
-    found = dict((_of_the_path(f, "amplitude", amplitude), _of_the_path(f, "mean rate", mean_rate)))
-    shown = {"temperature": (" [°C]", -273.15), "axial tension": (" [N]", 0.0), "specimen length": (" [m]", 0.0)}
-    for name in varying([x.experiment for x in fits]):
-        unit, shift = shown.get(name, ("", 0.0))
-        found[name + unit] = np.array([x.experiment.conditions.get(name, np.nan) + shift for x in fits])
-    return {name: v for name, v in found.items() if np.isfinite(v).any() and np.nanmax(v) > 1.05 * np.nanmin(v)}
-
-
-def _of_the_path(f: Findings, name: str, of: Callable[[Experiment], float]) -> tuple[str, np.ndarray]:
-    """A number of each record with its unit; where several paths were prescribed, over the largest of its own."""
-    experiments = [x.experiment for x in f.comparison.fits]
-    paths = [e.record.prescribed for e in experiments]
-    values = np.array([of(e) for e in experiments])
-    if len(set(paths)) == 1:
-        per = "/s" if of is mean_rate else ""
-        unit = experiments[0].record.channels[paths[0]].unit
-        return f"{name} of the {paths[0]} [{'' if unit == '1' and per else unit}{per}]".replace("[/s]", "[1/s]"), values
-    largest = {p: max((v for v, q in zip(values, paths) if q == p and np.isfinite(v)), default=1.0) for p in paths}
-    return f"{name}, over the largest of its path", values / np.array([largest[p] or 1.0 for p in paths])
-
-
-def conditions_figure(f: Findings) -> Figure:
-    """Excess of every record against each condition that varied, before and after."""
-    from matplotlib.figure import Figure
-
-    found = dict(list(covariates(f).items())[:6])
-    rows = -(-len(found) // 2)
-    figure = Figure(figsize=(_WIDTH, 0.9 + 2.1 * rows))
-    panels = np.atleast_1d(figure.subplots(rows, 2, sharey=True, squeeze=False)).ravel()
-    before = np.array([x.relative_excess for x in f.comparison.fits])
-    after = np.array([same_record(x, f.after).relative_excess for x in f.comparison.fits])
-    for axes, (name, x) in zip(panels, found.items()):
-        axes.plot(x, before, "o", color=VERMILLION, ms=5, alpha=0.75, label="base model")
-        if f.after is not f.comparison:
-            axes.plot(x, after, "^", mfc="none", mec=GREEN, ms=5, label="with effects")
-        positive = x[np.isfinite(x)]
-        if positive.min() > 0 and positive.max() > 20 * positive.min():
-            axes.set_xscale("log")
-        axes.set_xlabel(name)
-        axes.set_ylim(bottom=min(0.0, -0.03 * float(before.max())))
-    for axes in panels[len(found) :]:
-        axes.set_visible(False)
-    for axes in panels[::2]:
-        axes.set_ylabel("excess [floors]")
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=2, frameon=False)
-    _title(figure, "Excess against what was varied")
-    return figure
-
-
-def _loops(f: Findings) -> list[tuple[ChannelFit, float]]:
-    found = [(x, loop_energy(x)) for x in f.comparison.fits]
-    return [(x, e) for x, e in found if e is not None and e > 0]
-
-
-def loop_energy_figure(f: Findings) -> Figure:
-    """Energy of one loop against amplitude and against rate; the base model has none."""
-    from matplotlib.figure import Figure
-
-    found = _loops(f)
-    figure = Figure(figsize=(_WIDTH, 3.2))
-    panels: Any = figure.subplots(1, 2, sharey=True)
-    measured = np.array([e for _, e in found])
-    model = np.array([loop_energy(same_record(x, f.after), model=True) or 0.0 for x, _ in found])
-    everywhere = [(x.experiment.id, x.channel) for x in f.comparison.fits]
-    chosen = [everywhere.index((x.experiment.id, x.channel)) for x, _ in found]
-    for axes, (name, values) in zip(
-        panels, (_of_the_path(f, "amplitude", amplitude), _of_the_path(f, "mean rate", mean_rate)), strict=True
-    ):
-        at = values[chosen]
-        axes.plot(at, measured, "o", color=BLUE, ms=5.5, alpha=0.8, label="measured")
-        if f.after is not f.comparison and model.max() > 1e-6 * measured.max():
-            axes.plot(at, model, "x", color=GREEN, ms=6.5, mew=1.6, label="model with effects")
-        axes.set_xlabel(name)
-        axes.set_xlim(left=0)
-        axes.set_ylim(bottom=0)
-    units = {_energy_unit(x) for x, _ in found}
-    panels[0].set_ylabel(f"energy of a loop [{', '.join(sorted(units))}]")
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=2, frameon=False)
-    _title(figure, "Energy lost in one loop (the base model loses none)")
-    return figure
-
-
-def _energy_unit(fit: ChannelFit) -> str:
-    """J of a force over a length or a moment over an angle; J/m of a load over a strain, a twist or a curvature."""
-    return "J" if fit.experiment.record.prescribed in ("extension", "rotation", "deflection") else "J/m"
-
-
 def ranking_figure(f: Findings) -> Figure:
     """Evidence and share of the excess of every effect that was tried, best first."""
     from matplotlib.figure import Figure
 
     ranking = f.ranking[:_MOST_BARS]
-    figure = Figure(figsize=(_WIDTH, 1.35 + 0.27 * len(ranking)))
+    figure = Figure(figsize=(PAGE_WIDTH, 1.35 + 0.27 * len(ranking)))
     panels: Any = figure.subplots(1, 2, sharey=True, width_ratios=(1.6, 1))
     rows = np.arange(len(ranking))
     log_e = np.nan_to_num([c.log_e for c in ranking], neginf=-1e3, posinf=1e6)
@@ -258,7 +115,7 @@ def ranking_figure(f: Findings) -> Figure:
     panels[1].set_xlabel("share removed [%]")
     panels[0].set_yticks(rows, [_bar_name(c.effect, f) for c in ranking], fontsize=8)
     panels[0].set_ylim(len(ranking) - 0.4, -0.6)
-    _title(figure, "Which effect", f.ranking, ranking)
+    title(figure, "Which effect", f.ranking, ranking)
     return figure
 
 
@@ -272,7 +129,7 @@ def path_figure(f: Findings) -> Figure:
 
     start = f.errors["calibrate"].before if "calibrate" in f.errors else f.comparison.relative_error("calibrate")
     errors = np.array([start or np.nan, *(step.error for step in f.path)])
-    figure = Figure(figsize=(_WIDTH, 2.7))
+    figure = Figure(figsize=(PAGE_WIDTH, 2.7))
     axes = figure.add_subplot()
     steps = np.arange(len(errors))
     axes.plot(steps, errors, "-", color=GREY, lw=1.2, zorder=1)
@@ -286,7 +143,7 @@ def path_figure(f: Findings) -> Figure:
     axes.set_xlim(-0.4, len(errors) - 0.5)
     axes.set_ylim(0, 1.15 * float(np.nanmax(errors)))
     axes.set_ylabel("error [noise floors]")
-    _title(figure, "The path: error on the calibration set")
+    title(figure, "The path: error on the calibration set")
     return figure
 
 
@@ -295,7 +152,7 @@ def errors_figure(f: Findings) -> Figure:
     from matplotlib.figure import Figure
 
     sets = [name for name in SETS if name in f.errors]
-    figure = Figure(figsize=(_WIDTH, 1.5 + 0.55 * len(sets)))
+    figure = Figure(figsize=(PAGE_WIDTH, 1.5 + 0.55 * len(sets)))
     axes = figure.add_subplot()
     used: dict[str, Any] = {}
     for row, name in enumerate(sets):
@@ -315,7 +172,7 @@ def errors_figure(f: Findings) -> Figure:
     figure.legend(
         [*used.values(), floor], [*used, "noise floor"], loc="outside lower center", ncols=3, frameon=False, fontsize=8
     )
-    _title(figure, "Before and after" if f.effects else "Error on every set (nothing was added)")
+    title(figure, "Before and after" if f.effects else "Error on every set (nothing was added)")
     return figure
 
 
@@ -342,7 +199,7 @@ def confusion_figure(s: Separation) -> Figure:
     from matplotlib.figure import Figure
 
     m = len(s.effects)
-    figure = Figure(figsize=(_WIDTH, 2.0 + 0.3 * m))
+    figure = Figure(figsize=(PAGE_WIDTH, 2.0 + 0.3 * m))
     axes = figure.add_subplot()
     table = 100 * np.asarray(s.confusion)
     axes.imshow(table, cmap="Blues", vmin=0, vmax=50, aspect="auto")
@@ -356,7 +213,7 @@ def confusion_figure(s: Separation) -> Figure:
     axes.set_xlabel("taken for")
     axes.set_ylabel("true effect")
     axes.tick_params(length=0)
-    _title(figure, "Chance of confusion [%]")
+    title(figure, "Chance of confusion [%]")
     return figure
 
 

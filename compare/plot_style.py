@@ -7,13 +7,16 @@ width, marker or text.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from compare.comparison import ChannelFit
 from compare.experiment import Experiment
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 BLUE, SKY, VERMILLION, GREEN, GREY, INK = "#0072B2", "#56B4E9", "#D55E00", "#009E73", "#8C8C8C", "#2B2B2B"
 STYLE: dict[Any, Any] = {
@@ -29,6 +32,7 @@ STYLE: dict[Any, Any] = {
     "figure.constrained_layout.use": True,
     "savefig.dpi": 150,
 }
+PAGE_WIDTH = 7.2  # inches: what a page shows at full width
 _MOST_POINTS = 3000
 _SHOWN = {
     "extension": (1e3, "mm"),
@@ -38,6 +42,12 @@ _SHOWN = {
 }
 _CONDITION_SHOWN = {"temperature": (1.0, -273.15, "°C"), "inclination": (180 / np.pi, 0.0, "°")}
 _CONDITION_UNIT = {"axial tension": "N", "tail tension": "N", "specimen length": "m", "speed": "m/s", "frequency": "Hz"}
+
+
+def title(figure: Figure, text: str, all_of: Sequence[Any] = (), shown: Sequence[Any] = ()) -> None:
+    """Title at the left, which says so where only some of all items are shown."""
+    tail = f", the {len(shown)} largest of {len(all_of)}" if len(shown) < len(all_of) else ""
+    figure.suptitle(text + tail, x=0.01, ha="left", fontsize=11, fontweight="bold", color=INK)
 
 
 def path_of(fit: ChannelFit) -> NDArray[np.float64]:

@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 
 from compare.comparison import ChannelFit, Comparison
-from compare.findings import Findings, SetError
+from compare.findings import Findings
 from compare.findings_record import experiment_rows
 from compare.findings_sentences import (
-    VERDICTS,
     listed,
     missing_effect,
     model_against_data,
@@ -37,16 +35,7 @@ from helicable.campaign_tables import (
 )
 from helicable.explain_screen import baseline_words, error_row, ratio_words, untestable_sentences
 from helicable.report import Figure, Section, Table
-
-_AT_THE_FLOOR, _NEAR_THE_FLOOR = 1.1, 1.5
-
-
-@dataclass(frozen=True)
-class Light:
-    """A traffic light that needs no colour: circle, triangle or square, and a word."""
-
-    level: Literal["good", "mind", "bad"]
-    word: str
+from helicable.traffic_light import Light, error_light, held_out_light, verdict_light
 
 
 @dataclass(frozen=True)
@@ -55,32 +44,6 @@ class Panel(Section):
 
     light: Light = Light("good", "")
     computed: Sequence[tuple[str, str]] = ()
-
-
-def error_light(error: float | None) -> Light:
-    """Light of an error over the noise floor."""
-    if error is None:
-        return Light("mind", "not compared")
-    if error <= _AT_THE_FLOOR:
-        return Light("good", "at the noise floor")
-    return Light("mind", "near the floor") if error <= _NEAR_THE_FLOOR else Light("bad", f"{error:.3g} x the floor")
-
-
-def verdict_light(findings: Findings) -> Light:
-    """Light of the verdict."""
-    if findings.verdict in ("none", "identified"):
-        return Light("mind", "noise assumed") if findings.noise_assumed else Light("good", VERDICTS[findings.verdict])
-    return Light("bad" if findings.verdict == "unknown" else "mind", VERDICTS[findings.verdict])
-
-
-def held_out_light(errors: Mapping[str, SetError]) -> Light:
-    """Light of the proof on data that were not fitted."""
-    words = [errors[name].confirmed for name in ("sealed", "validate") if name in errors]
-    if False in words:
-        return Light("bad", "not confirmed")
-    if True in words:
-        return Light("good", "confirmed")
-    return Light("mind", "nothing to confirm" if words else "no held-out data")
 
 
 def panels(findings: Findings, pictures: Mapping[str, Path]) -> tuple[Panel, ...]:

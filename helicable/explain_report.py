@@ -9,8 +9,9 @@ from pathlib import Path
 from compare.findings import Findings
 from compare.findings_plot import plot_findings
 from compare.findings_sentences import first_screen, listed, named, uncalibrated
-from helicable.explain_panels import Light, Panel, panels, sealed_sentence, verdict_light
+from helicable.explain_panels import Panel, panels, sealed_sentence
 from helicable.report import write_page
+from helicable.traffic_light import Light, verdict_light
 
 _PANEL_OF_SENTENCE = (3, 4, 4, 6, 7)
 
