@@ -37,12 +37,14 @@ from helicable.explain_screen import baseline_words, error_row, ratio_words, unt
 from helicable.report import Figure, Section, Table
 from helicable.traffic_light import Light, error_light, held_out_light, verdict_light
 
+_NO_LIGHT = Light("good", "")
+
 
 @dataclass(frozen=True)
 class Panel(Section):
     """A section with a light, and for every number in it how it is computed."""
 
-    light: Light = Light("good", "")
+    light: Light = _NO_LIGHT
     computed: Sequence[tuple[str, str]] = ()
 
 
