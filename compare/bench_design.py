@@ -92,10 +92,7 @@ class BenchRecord:
 
     def columns(self, terms: Sequence[ActiveEffect], only: int | None = None) -> list[Array]:
         """Columns of every reading, base first, then those of each term: (n, P); with `only` just those of one term."""
-        path = self.led.path
-        for term in terms:
-            if term.form.stage == "fixture":
-                path = path.with_strain(term.form.respond(path, *term.shape))
+        path = self.inside(terms)
         inner = [
             _matrix(term.form.respond(path, *term.shape))
             if term.form.stage in ("section", "cross") and only in (None, i)
@@ -103,6 +100,14 @@ class BenchRecord:
             for i, term in enumerate(terms)
         ]
         return [self._of_reading(reading, path, terms, inner, only) for reading in self.readings]
+
+    def inside(self, terms: Sequence[ActiveEffect]) -> BenchPath:
+        """The path that the section sees, inside all fixtures."""
+        path = self.led.path
+        for term in terms:
+            if term.form.stage == "fixture":
+                path = path.with_strain(term.form.respond(path, *term.shape))
+        return path
 
     def _of_reading(
         self,

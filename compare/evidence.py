@@ -7,7 +7,7 @@ coefficients and shapes (weak Gaussian priors, half-normal for strengths that ma
 
 is the prediction of B by the model with the effect that has seen A, over the best that the model without it can do when
 it is fitted to B itself, where also the random gain and offset of the records may be larger than the repeats showed.
-If nothing is missing the expectation of e is at most 1, so that P(e > c) <= 1/c, without regularity conditions; the mean over
+Strengths of effects that were accepted before are predicted from A on both sides. If nothing is missing the expectation of e is at most 1, so that P(e > c) <= 1/c, without regularity conditions; the mean over
 several splits is an e-value again. Source: universal inference, Wasserman, Ramdas & Balakrishnan, PNAS 117 (2020)
 16880, doi 10.1073/pnas.1922664117, with a predictive mixture in the place of a plug-in estimate.
 
@@ -67,19 +67,30 @@ class Null:
 
     S: Array = field(repr=False)
     log_det: Array = field(repr=False)
+    penalty: Array = field(repr=False)
     grams: Grams = field(repr=False)
 
     @classmethod
     def of(cls, grams: Grams) -> Null:
         """From the Gram matrices of the accepted model."""
         pairs = [(a, b) for a in _INFLATION for b in _INFLATION]
-        return cls(*grams.scatter.marginal(grams.A, pairs), grams)
+        return cls(*grams.scatter.marginal(grams.A, pairs), grams.scatter.surprise(grams.A, pairs), grams)
 
-    def best(self, groups: NDArray[np.bool_]) -> float:
-        """Largest log likelihood of these groups over coefficients and scatter, up to a constant of the samples."""
-        S = np.einsum("vgij,g->vij", self.S, groups.astype(float))
-        x = self.grams.fit(S, prior=(np.ones(self.grams.P), np.full(self.grams.P, 1e-9)))
-        return float(np.max(-0.5 * (energy(S, x) + self.log_det @ groups)))
+    def best(self, first: NDArray[np.bool_]) -> float:
+        """Largest log likelihood of the groups that are not in `first`, up to a constant of the samples.
+
+        Over scatter, and over the stiffness fitted to these groups themselves. Strengths of effects that were accepted
+        before are predicted from the first groups, as they are in the model with the new effect.
+        """
+        rest = np.einsum("vgij,g->vij", self.S, (~first).astype(float))
+        log_det = self.log_det @ (~first)
+        if self.grams.P == self.grams.base:
+            x = self.grams.fit(rest, prior=(np.ones(self.grams.P), np.full(self.grams.P, 1e-9)))
+            value = -0.5 * (energy(rest, x) + log_det)
+        else:
+            seen = np.einsum("vgij,g->vij", self.S, first.astype(float))
+            value = log_marginal(self.grams, seen + rest) - log_marginal(self.grams, seen) - 0.5 * log_det
+        return float(np.max(value - self.penalty))
 
 
 def log_e_value(candidate: Grams, null: Null, parts: NDArray[np.bool_]) -> float:
@@ -93,7 +104,7 @@ def log_e_value(candidate: Grams, null: Null, parts: NDArray[np.bool_]) -> float
     whole = log_marginal(candidate, S.sum(axis=2)) - 0.5 * log_det.sum(axis=1)[:, None]
     seen = log_marginal(candidate, np.einsum("vmgij,sg->svmij", S, first)) - 0.5 * (first @ log_det.T)[:, :, None]
     ratio = logsumexp(whole) - logsumexp(seen, axis=(1, 2))
-    rest = np.array([null.best(~part) for part in parts])
+    rest = np.array([null.best(part) for part in parts])
     return float(logsumexp(ratio - rest) - np.log(len(parts)))
 
 

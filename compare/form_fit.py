@@ -115,7 +115,8 @@ def _search(
         return tuple(float(np.clip(v, p.low, p.high)) for v, p in zip(values, parameters, strict=True))
 
     def cost_of(u: Array) -> float:
-        return float(total_cost(scan.candidate(replace(term, shape=shape_of(u)))))
+        moved = replace(term, shape=shape_of(u))
+        return float(total_cost(scan.of_matrix(moved, scan.cost_matrix(moved))))
 
     start = np.array([np.log(v) if log else v for v, log in zip(term.shape, logs, strict=True)])
     ends = np.array(

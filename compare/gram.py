@@ -32,6 +32,7 @@ class Scatter:
     D: Array = field(repr=False)
     group: NDArray[np.intp] = field(repr=False)
     groups: int
+    contrasts: int = 0
 
     @classmethod
     def of(cls, block: Block) -> Scatter:
@@ -42,7 +43,8 @@ class Scatter:
             for reading in record.readings:
                 D.append((reading.whiten.noise.gain**2, reading.whiten.noise.offset**2))
                 group.append(group_of[i])
-        return cls(np.array(D), np.array(group, dtype=np.intp), len(block.groups))
+        contrasts = min((r.whiten.noise.contrasts for record in block.records for r in record.readings), default=0)
+        return cls(np.array(D), np.array(group, dtype=np.intp), len(block.groups), contrasts)
 
     def marginal(self, A: Array, inflation: Sequence[tuple[float, float]]) -> tuple[Array, Array]:
         """Gram matrices (v, ..., G, P + 1, P + 1) and log determinants (v, G) with gain and offset integrated out.
@@ -67,6 +69,26 @@ class Scatter:
             np.add.at(log_det, self.group, np.linalg.slogdet(M)[1])
             dets.append(log_det)
         return np.array(S), np.array(dets)
+
+    def surprise(self, A: Array, inflation: Sequence[tuple[float, float]]) -> Array:
+        """How unlikely the repeats of the other half of the data are under so much scatter, in nats, (v,).
+
+        A contrast shows gain and offset with the variance D and the standard error of one record; k of them follow
+        chi-square. Half of them count, because the other half are in the data that are judged.
+        """
+        U = np.reshape(A, (-1, *A.shape[-3:]))[0, :, -2:, -2:]
+        unit = 1 / np.maximum(np.diagonal(U, axis1=1, axis2=2), 1e-300)
+        total = np.zeros(len(inflation))
+        for i, pair in enumerate(inflation):
+            ratio = np.median((self.D + (1 + np.array(pair) ** 2) * unit) / (self.D + unit), axis=0)
+            total[i] = self.contrasts / 4 * float(np.sum(np.log(ratio) + 1 / ratio - 1))
+        return total
+
+    def measured(self, A: Array) -> Array:
+        """Gram matrices (..., G, P + 1, P + 1) with the scatter that the repeats showed."""
+        if not self.D.any():
+            return self._summed(A[..., :-2, :-2])
+        return self.marginal(A, [(0.0, 0.0)])[0][0]
 
     def _summed(self, each: Array) -> Array:
         """Sum over the readings of each group: (..., R, P, P) to (..., G, P, P)."""
@@ -161,7 +183,7 @@ class Scan:
 
     def __init__(self, block: Block, accepted: Sequence[ActiveEffect]) -> None:
         self.block, self.accepted = block, tuple(accepted)
-        self._scatter = Scatter.of(block)
+        self.scatter = Scatter.of(block)
         self._fixed = [_sample_white(record, self.accepted) for record in block.records]
         self._rest = [
             [
@@ -170,39 +192,75 @@ class Scan:
             ]
             for record in block.records
         ]
+        self._paths = [record.inside(self.accepted) for record in block.records]
+        self._plain = not any(t.form.stage == "filter" for t in self.accepted)
+        self._loads = [[(r.role == "load") for r in record.readings] for record in block.records]
 
     def base(self) -> Grams:
         """Of the accepted terms alone."""
-        return self._assemble(self.accepted, self._fixed)
+        return self._with(self.accepted, self._fixed)
 
     def candidate(self, term: ActiveEffect) -> Grams:
-        """Of the accepted terms and one more."""
+        """Of the accepted terms and one more, with what repeats share."""
         terms = (*self.accepted, term)
-        if term.form.stage in ("fixture", "filter"):
-            return self._assemble(terms, [_sample_white(record, terms) for record in self.block.records])
-        own = [_sample_white(record, terms, only=len(self.accepted)) for record in self.block.records]
-        both = [[np.hstack(z) for z in zip(a, b, strict=True)] for a, b in zip(self._fixed, own, strict=True)]
-        return self._assemble(terms, both)
+        return self._with(terms, self._columns(term))
+
+    def cost_matrix(self, term: ActiveEffect) -> Array:
+        """A (R, P + 3, P + 3) of the accepted terms and one more."""
+        return self._products(self._columns(term))
 
     def grid(self, term: ActiveEffect, shapes: Sequence[tuple[float, ...]]) -> Grams:
-        """Of one more term at several shapes: S, X and A of shape (m, ...)."""
-        each = [self.candidate(replace(term, shape=shape)) for shape in shapes]
-        stacked = {name: np.stack([getattr(g, name) for g in each]) for name in ("S", "X", "A")}
-        return replace(each[0], **stacked)
+        """Of one more term at several shapes: S and A of shape (m, ...); X, which no search needs, is left empty."""
+        A = np.stack([self.cost_matrix(replace(term, shape=shape)) for shape in shapes])
+        return self.of_matrix(term, A)
 
-    def _assemble(self, terms: Sequence[ActiveEffect], columns: Sequence[Sequence[Array]]) -> Grams:
-        block, A, rows = self.block, [], []
-        for record, Zs, rests in zip(block.records, columns, self._rest, strict=True):
-            white = []
-            for reading, Z, rest in zip(record.readings, Zs, rests, strict=True):
-                V = np.hstack([Z, rest])
+    def of_matrix(self, term: ActiveEffect, A: Array) -> Grams:
+        """Gram matrices from those of the readings A (..., R, P + 3, P + 3), without what repeats share."""
+        block, terms = self.block, (*self.accepted, term)
+        n = np.array([sum(len(r.y) for i in g for r in block.records[i].readings) for g in block.groups], dtype=float)
+        S = self.scatter.measured(A)
+        return Grams(S, S[..., :0, :0], A, n, n > 0, positive_flags(block, terms), len(block.base), self.scatter)
+
+    def _columns(self, term: ActiveEffect) -> list[list[Array]]:
+        """Sample-white columns of all terms, per record and reading."""
+        terms = (*self.accepted, term)
+        if term.form.stage in ("fixture", "filter"):
+            return [_sample_white(record, terms) for record in self.block.records]
+        if term.form.stage != "section" or not self._plain:
+            own = [_sample_white(record, terms, only=len(self.accepted)) for record in self.block.records]
+        else:
+            own = [self._section_columns(i, term) for i in range(len(self.block.records))]
+        return [[np.concatenate(z, axis=1) for z in zip(a, b, strict=True)] for a, b in zip(self._fixed, own, strict=True)]
+
+    def _section_columns(self, i: int, term: ActiveEffect) -> list[Array]:
+        record = self.block.records[i]
+        c = term.form.respond(self._paths[i], *term.shape)[record.led.lead :]
+        c = c[:, None] if c.ndim == 1 else c
+        return [
+            r.whiten.samples(r.stiffness * c) if load else np.zeros(c.shape)
+            for r, load in zip(record.readings, self._loads[i], strict=True)
+        ]
+
+    def _products(self, columns: Sequence[Sequence[Array]]) -> Array:
+        A = []
+        for Zs, rests in zip(columns, self._rest, strict=True):
+            for Z, rest in zip(Zs, rests, strict=True):
+                V = np.concatenate((Z, rest), axis=1)
                 A.append(V.T @ V)
-                white.append(reading.whiten.records(V[:, :-2]))
-            rows.append(white[0] if len(white) == 1 else np.vstack(white))
-        stacked = np.array(A)
-        S = self._scatter.marginal(stacked, [(0.0, 0.0)])[0][0]
+        return np.array(A)
+
+    def _with(self, terms: Sequence[ActiveEffect], columns: Sequence[Sequence[Array]]) -> Grams:
+        block, rows = self.block, []
+        for record, Zs, rests in zip(block.records, columns, self._rest, strict=True):
+            white = [
+                r.whiten.records(np.concatenate((Z, rest[:, :1]), axis=1))
+                for r, Z, rest in zip(record.readings, Zs, rests, strict=True)
+            ]
+            rows.append(white[0] if len(white) == 1 else np.concatenate(white))
+        A = self._products(columns)
         X, n, repeated = shared_products(block, rows)
-        return Grams(S, X, stacked, n, repeated, positive_flags(block, terms), len(block.base), self._scatter)
+        S = self.scatter.measured(A)
+        return Grams(S, X, A, n, repeated, positive_flags(block, terms), len(block.base), self.scatter)
 
 
 def _sample_white(record: BenchRecord, terms: Sequence[ActiveEffect], only: int | None = None) -> list[Array]:

@@ -239,33 +239,42 @@ def _moved(block: Block, terms: Sequence[ActiveEffect], i: int) -> ActiveEffect:
 
 
 def pair_gains(stage: Stage) -> list[tuple[float, Attempt, Attempt]]:
-    """All pairs of plain forms in one block, at the shapes that they have alone; left-out gain of both, best first.
+    """All pairs of effects in one block, at the shapes that they have alone; left-out gain of both, best first.
 
-    Fixtures and filters enter by the change that they make, which is exact at their own shape.
+    Each in its plain form and in the form with the most strengths, which can take on a new law beside the other effect
+    without a new search. Fixtures and filters enter by the change that they make, which is exact at their own shape.
     """
-    found = []
+    found: dict[frozenset[str], tuple[float, Attempt, Attempt]] = {}
     for b, block in enumerate(stage.blocks):
-        trials = [stage.trial(s, s.effect.forms[0]) for s in stage.sites if s.block == b]
-        trials = [t for t in trials if t.total > 0]
-        if len(trials) < 2:
-            continue
+        trials = [stage.trial(s, form) for s in stage.sites if s.block == b for form in _plain_and_free(s.effect)]
         columns, flags = _all_columns(stage, b, trials)
-        target = [r.target for r in block.records]
-        V = [np.column_stack([Z, y]) for Z, y in zip(columns, target, strict=True)]
-        S = np.array([sum((V[i].T @ V[i] for i in members), np.zeros((V[0].shape[1],) * 2)) for members in block.groups])
-        P0 = stage.base[b].P
-        starts = np.cumsum([0, *[f.size for f in flags]]) + P0
+        V = [np.column_stack([Z, r.target]) for Z, r in zip(columns, block.records, strict=True)]
+        S = np.array([sum(V[i].T @ V[i] for i in members) for members in block.groups])
+        starts = np.cumsum([stage.base[b].P, *[f.size for f in flags]])
         for i in range(len(trials)):
             for j in range(i):
-                if trials[i].site.effect.name == trials[j].site.effect.name:
+                names = frozenset((trials[i].site.effect.name, trials[j].site.effect.name))
+                if len(names) < 2:
                     continue
                 own = [*range(starts[i], starts[i + 1]), *range(starts[j], starts[j + 1])]
-                index = np.array([*range(P0), *own, S.shape[1] - 1])
-                positive = np.concatenate([stage.base[b].positive, flags[i], flags[j]])
-                part = replace(stage.base[b], S=S[:, index[:, None], index], X=S[:, index[:, None], index], positive=positive)
-                gain = float(np.sum(0.5 * (stage.left[b].square - left_out(part).square)))
-                found.append((gain, stage.attempt([trials[i]]), stage.attempt([trials[j]])))
-    return sorted(found, key=lambda item: -item[0])
+                gain = _pair_gain(stage, b, S, own, np.concatenate([flags[i], flags[j]]))
+                if names not in found or gain > found[names][0]:
+                    found[names] = (gain, stage.attempt([trials[i]]), stage.attempt([trials[j]]))
+    return sorted(found.values(), key=lambda item: -item[0])
+
+
+def _plain_and_free(effect: Effect) -> list[Form]:
+    freest = max(effect.forms, key=lambda f: len(f.strength))
+    return [effect.forms[0]] if freest is effect.forms[0] else [effect.forms[0], freest]
+
+
+def _pair_gain(stage: Stage, b: int, S: Array, own: Sequence[int], flags: NDArray[np.bool_]) -> float:
+    base = stage.base[b]
+    index = np.array([*range(base.P), *own, S.shape[1] - 1])
+    part = S[:, index[:, None], index]
+    positive = np.concatenate([base.positive, flags])
+    square = left_out(replace(base, S=part, X=part, positive=positive)).square
+    return float(np.sum(0.5 * (stage.left[b].square - square)))
 
 
 def _all_columns(stage: Stage, b: int, trials: Sequence[Trial]) -> tuple[list[Array], list[NDArray[np.bool_]]]:
