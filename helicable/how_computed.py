@@ -56,13 +56,13 @@ WHICH = (
         "on these same experiments. Under 'no effect' e is at most 1 on average, so that log e above the gate "
         "is rarer than the level alpha.",
     ),
-    ("needed", "ln(K / alpha): K effects were tried, alpha = 0.01."),
+    ("needed", "ln(K / alpha): K effects were tried in their kinds of experiment, alpha = 0.01."),
     (
         "share",
         "1 - (F after - 1) / (F before - 1), F the lack of fit on experiments left out of the fit; 100 % is "
         "down to the noise.",
     ),
-    ("behind", "Held-out score behind the best candidate, in nats. Within 5 nats they cannot be told apart."),
+    ("behind", "Held-out score behind the best candidate, in nats. Closer than a few nats they cannot be told apart."),
     ("folds", "Left-out conditions in which the effect did better than the base model."),
     ("value ± standard deviation", "From a refit of everything, over experiments, never over samples."),
 )

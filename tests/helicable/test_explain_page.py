@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import html
+import json
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from made_findings import VERDICTS, made_findings
 
+from compare.findings import Separation
 from compare.findings_plot import plot_findings
 from compare.findings_sentences import first_screen
 from helicable.explain_report import write_report
@@ -103,6 +107,28 @@ def test_pictures_that_have_nothing_to_show_are_left_out(tmp_path):
     from matplotlib.image import imread
 
     assert all(imread(p).std() > 0.02 for p in written.values()), "something is drawn"
+
+
+def test_findings_with_nothing_in_them_still_make_a_page(tmp_path):
+    """No experiment compared, no candidate, no set, no testable effect: sentences, not a traceback."""
+    made = made_findings("none")
+    nothing = replace(
+        made.comparison, fits=(), lack_of_fit={}, calibration=replace(made.comparison.calibration, values={})
+    )
+    empty = Separation((), np.zeros(0), (), np.zeros((0, 0)))
+    bare = replace(
+        made,
+        comparison=nothing,
+        after=nothing,
+        ranking=(),
+        untestable=(),
+        separation=empty,
+        smallest_seen={},
+        errors={},
+    )
+    page = write_report(replace(bare, where=(), notes=()), tmp_path).read_text(encoding="utf-8")
+    assert "No experiment" in page and "No held-out data" in page
+    assert json.dumps(bare.record(), allow_nan=False)
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no chromium")
