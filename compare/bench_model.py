@@ -20,9 +20,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from compare.bench_response import respond
 from compare.experiment import Experiment
 from compare.kinds import KINDS
 from compare.nominal_section import BenchSection
+from effects.effect import ActiveEffect
+from effects.library import find
 from geometry.errors import InputError
 
 Array = NDArray[np.float64]
@@ -49,6 +52,10 @@ class BenchModel:
         Nominal stiffness: a SectionStiffness, or the [section] of a campaign.
     ratios : mapping of str to float
         Stiffness over its nominal value, by ``EA``, ``coupling``, ``GJ``, ``EI``, ``GA``; 1 where it is absent.
+    added : tuple of str
+        Effects that are switched on; their parameters are found by the next calibration.
+    effects : tuple of ActiveEffect
+        Effects with values, kind by kind: what the calibration found.
 
     Examples
     --------
@@ -60,6 +67,31 @@ class BenchModel:
 
     section: BenchSection
     ratios: Mapping[str, float] = field(default_factory=dict)
+    added: tuple[str, ...] = ()
+    effects: tuple[ActiveEffect, ...] = field(default=(), repr=False)
+
+    def add(self, names: Sequence[str] | str) -> BenchModel:
+        """The same model with effects of the library switched on, to be calibrated by :func:`compare.compare`.
+
+        Raises
+        ------
+        SpecError
+            If there is no effect of that name.
+
+        Examples
+        --------
+        >>> from compare.nominal_section import NominalSection
+        >>> BenchModel(NominalSection({"EI": 95.0})).add("plasticity").added
+        ('plasticity',)
+        """
+        wanted = (names,) if isinstance(names, str) else tuple(names)
+        found = tuple(find(name).name for name in wanted)
+        return replace(self, added=tuple(dict.fromkeys((*self.added, *found))), effects=())
+
+    @property
+    def linear(self) -> BenchModel:
+        """The same stiffness without effects."""
+        return replace(self, added=(), effects=())
 
     def with_ratios(self, ratios: Mapping[str, float]) -> BenchModel:
         """The same section with other stiffness ratios."""
@@ -88,8 +120,15 @@ class BenchModel:
         """Whether this model can run the experiment; towing needs a rod."""
         return experiment.kind in BENCH_KINDS
 
-    def predict(self, experiment: Experiment) -> dict[str, Array]:
+    def predict(self, experiment: Experiment, before: Sequence[Experiment] = ()) -> dict[str, Array]:
         """What the measured channels of an experiment would read without noise, each of shape (n,), SI.
+
+        Parameters
+        ----------
+        experiment : Experiment
+            Open.
+        before : sequence of Experiment
+            Experiments among which those may be that it continues; only effects with a memory need them.
 
         Raises
         ------
@@ -101,6 +140,8 @@ class BenchModel:
                 f"experiment {experiment.id}: a bench model has no {experiment.kind} experiment; "
                 f"it has {', '.join(BENCH_KINDS)}."
             )
+        if self.effects:
+            return respond(self, experiment, before)
         kind, record = KINDS[experiment.kind], experiment.record
         over_length = (
             experiment.length

@@ -9,14 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.bench_model import BenchModel
 from compare.experiment import Experiment
 from compare.kinds import KINDS
 from effects.effect import BenchPath
+
+if TYPE_CHECKING:
+    from compare.bench_model import BenchModel
 
 Array = NDArray[np.float64]
 _DIVIDED = ("extension", "rotation", "deflection")

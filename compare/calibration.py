@@ -17,7 +17,7 @@ step) is exact here where the path was prescribed.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,13 +63,29 @@ class CalibratedValue:
 
 
 @dataclass(frozen=True)
+class ParameterValue:
+    """A parameter of an effect as it was found; `expected` is what the cable's own geometry would give, if known."""
+
+    value: float
+    std: float
+    unit: str
+    meaning: str = ""
+    plausible: tuple[float, float] | None = None
+    expected: str = ""
+
+
+@dataclass(frozen=True)
 class Calibration:
-    """The calibrated model, the values that were found, how many numbers were free, and sentences about it."""
+    """The calibrated model, the values that were found, how many numbers were free, and sentences about it.
+
+    `parameters` holds those of effects, by ``effect: parameter``.
+    """
 
     model: BenchModel
     values: Mapping[str, CalibratedValue]
     free: int
     notes: tuple[str, ...]
+    parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
 
 
 def calibrate(model: BenchModel, experiments: Sequence[Experiment], noise: NoiseModel) -> Calibration:
@@ -97,7 +113,7 @@ def calibrate(model: BenchModel, experiments: Sequence[Experiment], noise: Noise
         theta = _fit(model, parameters, experiments, noise, theta)
     fitted = _moved(model, parameters, theta)
     J, r = _whitened(model, parameters, experiments, noise, theta)
-    by_noise, by_bootstrap = _noise_std(J), _bootstrap_std(J, r, [e.kind for e in experiments])
+    by_noise, by_bootstrap = noise_std(J), bootstrap_std(J, r, [e.kind for e in experiments])
     std = np.fmax(by_noise, by_bootstrap)
     values, notes = {}, []
     for k, parameter in enumerate(parameters):
@@ -216,13 +232,13 @@ def _steps(theta: Array) -> Array:
     return np.diag(_STEP * np.fmax(np.abs(theta), 1e-3))
 
 
-def _noise_std(J: Sequence[Array]) -> Array:
+def noise_std(J: Sequence[Array]) -> Array:
     H = np.sum([j.T @ j for j in J], axis=0)
     seen = np.diag(H) > 0
     return np.where(seen, np.sqrt(np.diag(np.linalg.pinv(H, hermitian=True))), np.inf)
 
 
-def _bootstrap_std(J: Sequence[Array], r: Sequence[Array], kinds: Sequence[str]) -> Array:
+def bootstrap_std(J: Sequence[Array], r: Sequence[Array], kinds: Sequence[str]) -> Array:
     """Standard deviation over resampled experiments, drawn within each kind; one Gauss-Newton step per resample."""
     rng = np.random.default_rng(_SEED)
     H = np.array([j.T @ j for j in J])

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.bench_model import BenchModel
-from compare.calibration import Calibration, calibrate
+from compare.calibration import Calibration
 from compare.campaign import Campaign
 from compare.experiment import Experiment
 from compare.lack_of_fit import LackOfFit, lack_of_fit
@@ -174,9 +174,11 @@ def compare(model: BenchModel, campaign: Campaign, progress: Progress | None = N
     noise = measure_noise(campaign)
     bench = [e for e in campaign.readable if model.covers(e)]
     report(0.3, "calibrating the linear stiffness")
-    calibration = calibrate(model, [e for e in bench if e.set == "calibrate"], noise)
+    from compare.effect_calibration import calibrate_model
+
+    calibration = calibrate_model(model, [e for e in bench if e.set == "calibrate"], noise)
     report(0.8, "comparing every experiment")
-    fits = [fit for e in bench for fit in _fit_experiment(e, model, calibration.model, noise)]
+    fits = [fit for e in bench for fit in _fit_experiment(e, model, calibration.model, noise, bench)]
     gaps = [
         NotCompared(e, channel, noise.of(e, channel).floor(e.record[channel]))
         for e in campaign.readable
@@ -190,9 +192,13 @@ def compare(model: BenchModel, campaign: Campaign, progress: Progress | None = N
 
 
 def _fit_experiment(
-    experiment: Experiment, nominal: BenchModel, calibrated: BenchModel, noise: NoiseModel
+    experiment: Experiment,
+    nominal: BenchModel,
+    calibrated: BenchModel,
+    noise: NoiseModel,
+    chain: Sequence[Experiment] = (),
 ) -> list[ChannelFit]:
-    before, after = nominal.predict(experiment), calibrated.predict(experiment)
+    before, after = nominal.linear.predict(experiment), calibrated.predict(experiment, chain)
     fits = []
     for channel in experiment.record.measured:
         y, covariance = experiment.record[channel], noise.of(experiment, channel)

@@ -14,24 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.bench_model import BenchModel
+from compare.calibration import ParameterValue
 from compare.campaign import Campaign
 from compare.comparison import Comparison
 from compare.noise_floor import NoiseModel
 
 Array = NDArray[np.float64]
 Verdict = Literal["none", "identified", "family-identified", "confusable", "unknown"]
-
-
-@dataclass(frozen=True)
-class ParameterValue:
-    """A parameter of an effect as it was found; `expected` is what the cable's own geometry would give, if known."""
-
-    value: float
-    std: float
-    unit: str
-    meaning: str = ""
-    plausible: tuple[float, float] | None = None
-    expected: str = ""
 
 
 @dataclass(frozen=True)

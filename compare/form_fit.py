@@ -19,7 +19,8 @@ from compare.gram import Grams, Scan, energy
 from effects.effect import ActiveEffect, Effect, Form
 
 Array = NDArray[np.float64]
-_LARGEST_GRID = 140
+_LARGEST_GRID = 90
+_MATTERS = 1.0  # twice the log likelihood
 
 
 @dataclass(frozen=True)
@@ -38,12 +39,16 @@ class Site:
 
 @dataclass(frozen=True)
 class FormFit:
-    """A form at its best shape: the term, its Gram matrices, all coefficients (P,) and the left square residual."""
+    """A form at its best shape: the term, its Gram matrices, all coefficients (P,) and the left square residual.
+
+    `at_edge` names the shapes that would rather leave the range in which they are searched.
+    """
 
     term: ActiveEffect
     grams: Grams = field(repr=False)
     x: Array
     square: float
+    at_edge: tuple[str, ...] = ()
 
     @property
     def strength(self) -> Array:
@@ -89,30 +94,68 @@ def refine(scan: Scan, term: ActiveEffect, grid: Grams, shapes: Sequence[tuple[f
     costs = np.atleast_1d(total_cost(grid))
     best = int(np.argmin(costs))
     here = replace(term, shape=shapes[best])
-    if term.form.shape:
-        here = _search(scan, here, costs[best], _neighbours(shapes, best))
-    return fitted(scan.candidate(here), here)
+    if not term.form.shape:
+        return fitted(scan.candidate(here), here)
+    limits = _limits(term.form, shapes)
+    here = _search(scan, here, costs[best], _neighbours(shapes, best, limits), limits)
+    return replace(fitted(scan.candidate(here), here), at_edge=_at_edge(scan, here, limits))
 
 
-def _neighbours(shapes: Sequence[tuple[float, ...]], best: int) -> list[tuple[float, float]]:
-    """For every shape parameter the next lower and higher value on the grid (itself at an end of it)."""
+def _limits(form: Form, shapes: Sequence[tuple[float, ...]]) -> list[tuple[float, float]]:
+    """Range of every shape: the starts and half a step of a factor of two beyond, inside the physical bounds."""
+    limits = []
+    for k, parameter in enumerate(form.shape):
+        values = [s[k] for s in shapes]
+        low, high = min(values), max(values)
+        limits.append((max(parameter.low, low / 2 if low > 0 else low), min(parameter.high, 2 * high if high > 0 else high)))
+    return limits
+
+
+def _at_edge(scan: Scan, term: ActiveEffect, limits: Sequence[tuple[float, float]]) -> tuple[str, ...]:
+    """Shapes at an end of their range that matter: a step inwards costs more than half a nat."""
+
+    def cost(shape: tuple[float, ...]) -> float:
+        moved = replace(term, shape=shape)
+        return float(total_cost(scan.of_matrix(moved, scan.cost_matrix(moved))))
+
+    found = []
+    for k, (low, high) in enumerate(limits):
+        value, width = term.shape[k], high - low
+        near = 0.02 * (width if low <= 0 else min(width, value))
+        if width <= 0 or min(value - low, high - value) > near:
+            continue
+        inside = value + (0.2 if value - low <= near else -0.2) * (width if low <= 0 else min(width, value))
+        moved = (*term.shape[:k], float(np.clip(inside, low, high)), *term.shape[k + 1 :])
+        if cost(moved) - cost(term.shape) > _MATTERS:
+            found.append(term.form.shape[k].name)
+    return tuple(found)
+
+
+def _neighbours(
+    shapes: Sequence[tuple[float, ...]], best: int, limits: Sequence[tuple[float, float]]
+) -> list[tuple[float, float]]:
+    """For every shape parameter the next lower and higher value on the grid, or the limit at an end of it."""
     around = []
     for k, value in enumerate(shapes[best]):
-        axis = sorted({s[k] for s in shapes})
-        i = axis.index(value)
-        around.append((axis[max(i - 1, 0)], axis[min(i + 1, len(axis) - 1)]))
+        axis = [limits[k][0], *sorted({s[k] for s in shapes}), limits[k][1]]
+        i = axis.index(value, 1)
+        around.append((axis[i - 1], axis[i + 1]))
     return around
 
 
 def _search(
-    scan: Scan, term: ActiveEffect, cost: float, around: Sequence[tuple[float, float]]
+    scan: Scan,
+    term: ActiveEffect,
+    cost: float,
+    around: Sequence[tuple[float, float]],
+    limits: Sequence[tuple[float, float]],
 ) -> ActiveEffect:
     parameters = term.form.shape
     logs = [value > 0 and low > 0 for value, (low, _) in zip(term.shape, around, strict=True)]
 
     def shape_of(u: Array) -> tuple[float, ...]:
         values = [float(np.exp(v)) if log else float(v) for v, log in zip(u, logs, strict=True)]
-        return tuple(float(np.clip(v, p.low, p.high)) for v, p in zip(values, parameters, strict=True))
+        return tuple(float(np.clip(v, low, high)) for v, (low, high) in zip(values, limits, strict=True))
 
     def cost_of(u: Array) -> float:
         moved = replace(term, shape=shape_of(u))
@@ -127,7 +170,7 @@ def _search(
         if high <= low:
             return term
         found = minimize_scalar(
-            lambda v: cost_of(np.array([v])), bounds=(low, high), method="bounded", options={"xatol": 2e-3 * (high - low)}
+            lambda v: cost_of(np.array([v])), bounds=(low, high), method="bounded", options={"xatol": 5e-3 * (high - low)}
         )
         u, value = np.array([found.x]), float(found.fun)
     else:
@@ -137,7 +180,7 @@ def _search(
             cost_of,
             start,
             method="Nelder-Mead",
-            options={"initial_simplex": simplex, "maxfev": 45 * len(parameters), "xatol": 1e-3, "fatol": 1e-2},
+            options={"initial_simplex": simplex, "maxfev": 35 * len(parameters), "xatol": 1e-3, "fatol": 1e-2},
         )
         u, value = found.x, float(found.fun)
     return replace(term, shape=shape_of(u)) if value < cost else term

@@ -22,6 +22,7 @@ from effects.effect import ActiveEffect, Effect, Form
 
 Array = NDArray[np.float64]
 Terms = tuple[tuple[ActiveEffect, ...], ...]
+_EDGE = 5.0  # nats that a shape at the end of its range costs in the ranking
 _WORTH_FORM = 5.0  # nats by which a richer form has to predict better
 Progress = Callable[[float, str], None]
 
@@ -56,6 +57,11 @@ class Attempt:
     share: float
     positive: int
     folds: int
+
+    @property
+    def rank(self) -> float:
+        """Gain by which effects are ranked: less where a shape would rather leave its range."""
+        return self.gain - _EDGE * any(t.fit.at_edge for t in self.trials)
 
     @property
     def forms(self) -> tuple[str, ...]:
@@ -129,10 +135,10 @@ class Stage:
     def _attempts(self, forms: Mapping[Site, Sequence[Form]]) -> list[Attempt]:
         by_effect: dict[str, list[Trial]] = {}
         for site, choices in forms.items():
-            best = max((self.trial(site, form) for form in choices), key=lambda t: t.total)
+            best = max((self.trial(site, form) for form in choices), key=_worth_its_form)
             by_effect.setdefault(site.effect.name, []).append(best)
         attempts = [self.attempt(trials) for trials in by_effect.values()]
-        return sorted(attempts, key=lambda a: -a.gain)
+        return sorted(attempts, key=lambda a: -a.rank)
 
     def attempt(self, trials: Sequence[Trial]) -> Attempt:
         """Put the places of one effect together: those where it passes the gate, or else the best one."""
@@ -210,6 +216,11 @@ class Stage:
     def names(self) -> tuple[str, ...]:
         """Accepted effects in the order in which they were added."""
         return tuple(dict.fromkeys(t.effect.name for terms in self.accepted for t in terms))
+
+
+def _worth_its_form(trial: Trial) -> float:
+    """Gain of a trial, less what a form that is not the plain one has to earn."""
+    return trial.total - _WORTH_FORM * (trial.fit.term.form is not trial.site.effect.forms[0])
 
 
 def polished(blocks: Sequence[Block], terms: Sequence[Sequence[ActiveEffect]], sweeps: int = 2) -> Terms:

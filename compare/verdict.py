@@ -208,8 +208,8 @@ def _rivals(final: Stage) -> tuple[Stage, dict[str, tuple[Attempt, ...]]]:
 
 def tied(attempts: Sequence[Attempt]) -> tuple[str, ...]:
     """Effects whose left-out gain is within the tie of the best one."""
-    best = attempts[0].gain
-    return tuple(a.effect.name for a in attempts if best - a.gain < TIE)
+    best = attempts[0].rank
+    return tuple(a.effect.name for a in attempts if best - a.rank < TIE)
 
 
 def _judge(

@@ -20,7 +20,7 @@ from effects.slip_element import hardening_record, hardening_step, slip_record, 
 
 Array = NDArray[np.float64]
 
-YIELD_STRAINS = np.geomspace(0.03, 1.5, 14)
+YIELD_STRAINS = np.geomspace(0.03, 3.0, 16)
 """Yield strains of the many-element form over the largest strain."""
 
 YIELD_STRAIN = Parameter(
@@ -29,7 +29,7 @@ YIELD_STRAIN = Parameter(
     "strain at which the first metal yields",
     plausible=(0.0, np.inf),
     source="of the layup: yield strain of the wire over lay angle and radius; no common number",
-    starts=of_strain(0.01, 1.2, 14),
+    starts=of_strain(0.01, 1.5, 14),
 )
 HARDENING = Parameter(
     "isotropic hardening",
@@ -121,7 +121,7 @@ KINEMATIC = Form(
     memory=1,
 )
 MANY_ELEMENTS = Form(
-    "gradual yield, fourteen elements",
+    "gradual yield, sixteen elements",
     "section",
     _many,
     strength=tuple(

@@ -31,6 +31,18 @@ def _longest(paths: Sequence[BenchPath]) -> Array:
     return of_time(2, 0.5, 2.0)(paths)[-1:]
 
 
+def _between_the_rates(paths: Sequence[BenchPath]) -> Array:
+    """From half the time scale of the fastest loading, below which a branch is a dashpot, to twice the longest record."""
+    scales = [
+        float(np.abs(p.strain).max() / max(np.abs(np.diff(p.strain) / np.diff(p.time)).max(), 1e-300))
+        for p in paths
+        if p.time is not None and len(p.time) > 2 and np.abs(p.strain).max() > 0
+    ]
+    longest = _longest(paths)[0]
+    shortest = min(scales) if scales else longest / 1e4
+    return np.geomspace(min(0.5 * shortest, longest / 10), longest, 14)
+
+
 RELAXATION_TIME = Parameter(
     "relaxation time",
     "s",
@@ -38,7 +50,7 @@ RELAXATION_TIME = Parameter(
     low=1e-6,
     plausible=(1e-3, 1e7),
     source=_TAU_SOURCE,
-    starts=of_time(14, 0.5, 2.0),
+    starts=_between_the_rates,
 )
 LONGEST_TIME = Parameter(
     "longest relaxation time",
