@@ -120,9 +120,10 @@ def _show(argv: list[str]) -> int:
             continue
         t = row["label"]
         truth = " + ".join(f"{e}/{v}" for e, v in zip(t["effects"], t["variants"])) or "nothing"
+        rival = f" rival {t['rival']} at {t['apart']:g}" if t["rival"] else ""
         twins = f" twins {t['twins']}" if t["twins"] else ""
         print(f"{seed:7d} {class_of(row):8s} {truth}  [{t['kind']}, {t['design']}, {t['noise']} {t['size']:g}, strength {t['strength']:g}, "
-              f"D {t['D']:g} {t['D_alone'] if len(t['D_alone']) > 1 else ''}, F0 {t['F0']:g}]{twins}")  # fmt: skip
+              f"D {t['D']:g} {t['D_alone'] if len(t['D_alone']) > 1 else ''}, F0 {t['F0']:g}]{twins}{rival}")  # fmt: skip
         print(
             f"        -> {row['verdict']} {row['effects']} {row['confusable'] or ''} {row.get('closest') or ''} {row.get('why', '')}"
         )

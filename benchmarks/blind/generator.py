@@ -20,6 +20,7 @@ from benchmarks.blind.campaign_writer import MeasuredKind, write_campaign
 from benchmarks.blind.designs import make_bench
 from benchmarks.blind.noise import Noise
 from benchmarks.blind.plan import Case, case_of, draw_design, may_shear, possible_kinds
+from benchmarks.blind.rivals import nearest_rival
 from benchmarks.blind.strength import base_signal, channel_rms, cross_unit, distance, of_share, share_not_linear
 from benchmarks.blind.ties import exactly_tied, looks_like_a_condition, twins, untestable
 from benchmarks.blind.truth import Truth, respond
@@ -29,6 +30,8 @@ _EVERYWHERE = ("thermal-softening", "viscoelasticity", "viscous-damping")
 _RADIUS = 0.008
 _VISIBLE = 1.5
 _TRIES = 60
+_FAR = 60.0
+"""Distance from which a single truth is taken to be far from all rivals."""
 
 
 @dataclass(frozen=True)
@@ -142,6 +145,11 @@ def label_of(made: Hidden) -> dict[str, Any]:
     alone = [
         distance(bench, made.noise, made.cross_noise, truths, truths[:i] + truths[i + 1 :]) for i in range(len(truths))
     ]
+    rival, apart = "", whole
+    alone_on_main = case.group == "single" and "tension-torsion-coupling" not in case.effects
+    if alone_on_main and whole < _FAR and not bench.load_control:
+        rng = np.random.default_rng([808, case.seed])
+        rival, apart = nearest_rival(rng, bench, made.noise, truths[0], made.clock)
     return {
         "seed": case.seed, "group": case.group, "effects": list(case.effects), "variants": [t.variant for t in truths],
         "kind": "+".join(b.kind for b in made.benches), "design": made.design, "noise": case.noise, "size": case.size,
@@ -150,7 +158,7 @@ def label_of(made: Hidden) -> dict[str, Any]:
         "D": round(whole, 2), "D_alone": [round(d, 2) for d in alone], "F0": round(_expected_f0(bench, whole), 3),
         "untestable": hidden_names, "twins": sorted({t for s in sets.values() for t in s}),
         "tied": [n for n in sets if exactly_tied(n, bench, made.design)],
-        "clock": made.clock, "second_channel": made.second,
+        "rival": rival, "apart": round(apart, 2), "clock": made.clock, "second_channel": made.second,
     }  # fmt: skip
 
 

@@ -8,6 +8,8 @@ from typing import Any
 Row = Mapping[str, Any]
 SEEN = 6.0
 """Distance from which an effect counts as testable."""
+CLOSE = 5.0
+"""Distance from the nearest rival below which no method can be sure of the name."""
 VISIBLE = 1.2
 """Lack of fit from which a truth outside the library counts as clearly visible."""
 
@@ -18,7 +20,7 @@ def named(row: Row) -> list[str]:
 
 
 def class_of(row: Row) -> str:
-    """null, single, tie, outside, pair, hidden (testable in no way or too small), by what the label says."""
+    """What the label says: null, single, tie, outside, pair, near (a rival too close), hidden (untestable or too small)."""
     label = row["label"]
     if label["group"] in ("null", "outside"):
         return str(label["group"])
@@ -26,7 +28,9 @@ def class_of(row: Row) -> str:
         return "hidden"
     if len(label["effects"]) > 1:
         return "pair"
-    return "tie" if label["twins"] else "single"
+    if label["twins"]:
+        return "tie"
+    return "single" if label["apart"] >= CLOSE else "near"
 
 
 def first(row: Row) -> bool:
@@ -70,6 +74,8 @@ def right(row: Row) -> bool:
         return row["verdict"] == "unknown"
     if kind == "tie":
         return label["effects"][0] in (row["confusable"] if label["tied"] else named(row)) and not wrong(row)
+    if kind == "near":
+        return label["effects"][0] in named(row)
     if kind == "pair":
         return set(label["effects"]) <= set(named(row)) and not set(row["effects"]) - set(label["effects"])
     if kind == "hidden":

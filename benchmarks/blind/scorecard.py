@@ -88,6 +88,7 @@ def bars(rows: Sequence[Row]) -> list[Bar]:
         _share("  held-out error worse than the base", judged, lambda r: r["ratio"] > 1, 0.02, False),
         _share("  confusable: a false single name", tie, judge.false_single, 0.05, False),
         _share("  outside, visible: anything accepted", out, lambda r: bool(named(r)), 0.05, False),
+        _share("  single, rival too close: truth named", by["near"], lambda r: r["label"]["effects"][0] in named(r), 0.9, True),
         _share("  too small or untestable: named wrongly", by["hidden"], wrong, 0.02, False),
         _share("  untestable: listed as such", [r for r in rows if r["label"]["untestable"]],
                lambda r: set(r["label"]["untestable"]) <= set(r.get("untestable") or []), 1.0, True),

@@ -39,13 +39,13 @@ def share_not_linear(bench: Bench, truths: Sequence[Truth]) -> float:
     return float(np.sqrt(np.mean(left**2) / np.mean(main**2) + np.mean(cross**2)))
 
 
-def of_share(bench: Bench, truth: Truth, share: float) -> Truth:
-    """The truth with the size at which its share is `share`, or its largest size if that is less."""
+def of_share(bench: Bench, truth: Truth, share: float, close: float = _CLOSE) -> Truth:
+    """The truth with the size at which its share is `share` (within `close`), or its largest size if that is less."""
     size = truth.size
     for _ in range(_ROUNDS):
         truth = truth.of_size(size)
         found = share_not_linear(bench, [truth])
-        if abs(found / share - 1) < _CLOSE:
+        if abs(found / share - 1) < close:
             return truth
         if found <= 0 or not np.isfinite(found):
             size *= 0.5
@@ -57,24 +57,39 @@ def of_share(bench: Bench, truth: Truth, share: float) -> Truth:
     return truth
 
 
+def main_change(
+    bench: Bench,
+    noise: Noise,
+    truths: Sequence[Truth],
+    without: Sequence[Truth] = (),
+    like: Sequence[Truth] | None = None,
+) -> Array:
+    """What the truths change in the main channel of the fitted records beyond a linear stiffness, in units of the noise.
+
+    The noise is that of the signal with the truths, or with those of `like`; each condition stands for one record.
+    """
+    full, part = respond(bench, truths)["main"], respond(bench, without)["main"]
+    signal = full if like is None else respond(bench, like)["main"]
+    x, rms = base_signal(bench), channel_rms(bench, signal)
+    pairs = []
+    for c in np.flatnonzero(bench.fitted_rows):
+        n = bench.count[c]
+        columns = np.column_stack([x[c, :n], full[c, :n] - part[c, :n]])
+        pairs.append(noise.whiten(columns, signal[c, :n], rms))
+    a, e = np.vstack(pairs).T
+    return e - a * (a @ e) / (a @ a)
+
+
 def distance(
     bench: Bench, noise: Noise, cross_noise: Noise | None, truths: Sequence[Truth], without: Sequence[Truth] = ()
 ) -> float:
     """Distance of the truth from the best linear model (plus the truths `without`), fitted records and their repeats."""
-    full, part = respond(bench, truths), respond(bench, without)
-    x = base_signal(bench)
-    rms = channel_rms(bench, full["main"])
-    A, d = [], []
-    total = 0.0
-    for c in np.flatnonzero(bench.fitted_rows):
-        n = bench.count[c]
-        clean = full["main"][c, :n]
-        pair = noise.whiten(np.column_stack([x[c, :n], clean - part["main"][c, :n]]), clean, rms)
-        A.append(pair[:, 0])
-        d.append(pair[:, 1])
-        if cross_noise is not None:
-            away = (full["cross"] - part["cross"])[c, :n, None]
-            total += float(np.sum(cross_noise.whiten(away, full["cross"][c, :n], cross_unit(bench)) ** 2))
-    a, e = np.concatenate(A), np.concatenate(d)
-    total += float(e @ e - (a @ e) ** 2 / (a @ a))
-    return float(np.sqrt(2 * max(total, 0.0)))
+    left = main_change(bench, noise, truths, without)
+    total = float(left @ left)
+    if cross_noise is not None:
+        full, part = respond(bench, truths)["cross"], respond(bench, without)["cross"]
+        for c in np.flatnonzero(bench.fitted_rows):
+            n = bench.count[c]
+            away = (full - part)[c, :n, None]
+            total += float(np.sum(cross_noise.whiten(away, full[c, :n], cross_unit(bench)) ** 2))
+    return float(np.sqrt(2 * total))

@@ -15,6 +15,7 @@ from benchmarks.blind.designs import DESIGNS, make_bench, varies
 from benchmarks.blind.generator import label, make
 from benchmarks.blind.noise import KINDS, Noise
 from benchmarks.blind.plan import PAIRS, SCORE, TUNING, case_of
+from benchmarks.blind.rivals import nearest_rival
 from benchmarks.blind.strength import base_signal, distance, of_share, share_not_linear
 from benchmarks.blind.ties import looks_like_a_condition, twins, untestable
 from benchmarks.blind.truth import Truth, respond
@@ -338,3 +339,13 @@ def test_a_stiffness_that_follows_a_condition_is_noticed():
     bench = bench_for("thermal-softening")
     assert looks_like_a_condition(bench, respond(bench, [drawn("thermal-softening", bench)])["main"])
     assert not looks_like_a_condition(bench, base_signal(bench))
+
+
+def test_nearest_rival_of_yield_at_one_tension_is_slip():
+    """The contract's tie: their loops are the same, so that the distance falls to a fraction of that from a straight line."""
+    bench = make_bench(np.random.default_rng(9), "bending", "one-tension")
+    truth = of_share(bench, drawn("plasticity", bench, "multi-yield"), 0.05)
+    noise = Noise("white", 0.02)
+    name, apart = nearest_rival(np.random.default_rng(1), bench, noise, truth, clock=True)
+    assert name == "interlayer-friction"
+    assert apart < 0.3 * distance(bench, noise, None, [truth])

@@ -17,7 +17,7 @@ def answer(truth=(), effects=(), confusable=(), verdict="none", **label):
     full = {
         "seed": 1, "group": group, "effects": list(truth), "variants": ["v"] * len(truth), "kind": "bending",
         "design": "rich", "noise": "white", "size": 0.01, "strength": 0.05, "D": 50.0, "D_alone": [50.0] * len(truth),
-        "F0": 2.0, "untestable": [], "twins": [], "tied": [], **label,
+        "F0": 2.0, "untestable": [], "twins": [], "tied": [], "rival": "", "apart": 50.0, **label,
     }  # fmt: skip
     return {"seed": 1, "method": "m", "verdict": verdict, "effects": list(effects), "confusable": list(confusable),
             "seconds": 1.0, "ratio": None, "label": full}  # fmt: skip
@@ -55,6 +55,14 @@ def test_ties_sets_nulls_and_outsiders():
     assert not right(answer([], verdict="unknown"))
     assert right(answer(["hum"], verdict="unknown", group="outside"))
     assert not right(answer(["hum"], ["sensor-lag"], verdict="identified", group="outside"))
+
+
+def test_a_single_effect_with_a_rival_too_close_is_no_bar_for_the_name():
+    """Below five units of noise from the nearest rival the set is as right as the name."""
+    near = answer(["slack"], [], ["slack", "sensor-offset"], "confusable", apart=3.0)
+    assert class_of(near) == "near"
+    assert right(near)
+    assert not right(answer(["slack"], apart=3.0))
 
 
 def test_bars_count_what_they_say():
