@@ -177,6 +177,12 @@ class Block:
     records: tuple[BenchRecord, ...] = field(repr=False)
     groups: tuple[tuple[int, ...], ...]
 
+    def pairs(self, members: Sequence[int]) -> list[tuple[int, int]]:
+        """Pairs of records of a group that repeat each other sample by sample, and do not merely go on from each other."""
+        of = repeat_roots([record.experiment for record in self.records])
+        size = [[len(r.y) for r in record.readings] for record in self.records]
+        return [(i, j) for k, i in enumerate(members) for j in members[:k] if of[i] == of[j] and size[i] == size[j]]
+
     @property
     def channels(self) -> tuple[str, ...]:
         """Measured channels of any of its records."""
@@ -216,12 +222,31 @@ def make_blocks(experiments: Sequence[Experiment], model: BenchModel, noise: Noi
 
 
 def repeat_groups(experiments: Sequence[Experiment]) -> tuple[tuple[int, ...], ...]:
-    """Indices of the experiments that repeat each other, or go on from each other."""
+    """Indices of the experiments that repeat each other, or go on from each other.
+
+    Where this joins everything into one group, as in a campaign that is one long run, only repeats are joined: parts of
+    the run can then still be left out.
+    """
+    joined = _joined(experiments, True)
+    return joined if len(joined) > 1 else _joined(experiments, False)
+
+
+def repeat_roots(experiments: Sequence[Experiment]) -> list[str]:
+    """For every experiment the id of the one that it repeats, or its own."""
+    by_id, roots = {e.id: e for e in experiments}, []
+    for e in experiments:
+        while e.repeat_of is not None and e.repeat_of in by_id:
+            e = by_id[e.repeat_of]
+        roots.append(e.repeat_of or e.id)
+    return roots
+
+
+def _joined(experiments: Sequence[Experiment], continued: bool) -> tuple[tuple[int, ...], ...]:
     by_id = {e.id: e for e in experiments}
 
     def root(e: Experiment) -> str:
         seen = set()
-        while (before := e.repeat_of or e.continues) is not None and e.id not in seen:
+        while (before := e.repeat_of or (e.continues if continued else None)) is not None and e.id not in seen:
             seen.add(e.id)
             if before not in by_id:
                 return before

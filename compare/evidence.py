@@ -115,7 +115,10 @@ def leave_out(S: Array) -> Array:
 
 @dataclass(frozen=True)
 class LeftOut:
-    """Whitened square residual of every left-out group, and the part of it that repeats share: (G,) each."""
+    """Whitened square residual of every left-out group, and the part of it that repeats share: (G,) each.
+
+    Where no group has repeats, the shared part is the square residual less what the assumed noise gives.
+    """
 
     square: Array
     shared: Array
@@ -139,4 +142,5 @@ def left_out(grams: Grams) -> LeftOut:
     best = np.argmin(cost, axis=0)
     groups = np.arange(S.shape[1])
     square = energy(S, x)[best, groups]
-    return LeftOut(square, energy(X, x)[best, groups])
+    shared = energy(X, x)[best, groups] if grams.repeated.any() else square - grams.n
+    return LeftOut(square, shared)

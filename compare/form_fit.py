@@ -7,7 +7,7 @@ Numer. Anal. 10 (1973) 413), so that the search runs over the shapes alone, of w
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -169,10 +169,10 @@ def _search(
         low, high = ends[0]
         if high <= low:
             return term
-        found = minimize_scalar(
-            lambda v: cost_of(np.array([v])), bounds=(low, high), method="bounded", options={"xatol": 5e-3 * (high - low)}
-        )
-        u, value = np.array([found.x]), float(found.fun)
+        u, value = _bounded(cost_of, low, high)
+        if value >= cost:  # a kink in the way: the minimum that the grid has found lies close to it
+            near = 0.1 * (high - low)
+            u, value = _bounded(cost_of, max(low, start[0] - near), min(high, start[0] + near))
     else:
         step = np.maximum((ends[:, 1] - ends[:, 0]) / 4, 1e-3)
         simplex = np.vstack([start, start + np.diag(np.where(start + step > ends[:, 1], -step, step))])
@@ -184,6 +184,13 @@ def _search(
         )
         u, value = found.x, float(found.fun)
     return replace(term, shape=shape_of(u)) if value < cost else term
+
+
+def _bounded(cost_of: Callable[[Array], float], low: float, high: float) -> tuple[Array, float]:
+    """Minimum of a function of one shape between two values, to a thousandth of their distance."""
+    options = {"xatol": 1e-3 * (high - low)}
+    found = minimize_scalar(lambda v: cost_of(np.array([v])), bounds=(low, high), method="bounded", options=options)
+    return np.array([found.x]), float(found.fun)
 
 
 def sites(block: Block, index: int, library: Sequence[Effect]) -> list[Site]:

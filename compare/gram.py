@@ -273,14 +273,11 @@ def shared_products(block: Block, V: Sequence[Array]) -> tuple[Array, Array, NDA
     P = V[0].shape[1]
     X, n, repeated = np.zeros((len(block.groups), P, P)), np.zeros(len(block.groups)), []
     for g, members in enumerate(block.groups):
-        pairs = 0
-        for k, i in enumerate(members):
-            n[g] += len(V[i])
-            for j in members[:k]:
-                if len(V[i]) == len(V[j]):
-                    cross = V[i].T @ V[j]
-                    X[g] += (cross + cross.T) / 2
-                    pairs += 1
-        X[g] *= len(members) / max(pairs, 1)
-        repeated.append(pairs > 0)
+        pairs = block.pairs(members)
+        n[g] = sum(len(V[i]) for i in members)
+        for i, j in pairs:
+            cross = V[i].T @ V[j]
+            X[g] += (cross + cross.T) / 2
+        X[g] *= len(members) / max(len(pairs), 1)
+        repeated.append(len(pairs) > 0)
     return X, n, np.array(repeated, dtype=np.bool_)

@@ -61,12 +61,7 @@ def shared_misfit(
         rows += sum(len(r) for r in residual)
         alone += float(sum(r @ r for r in residual))
         for members in block.groups:
-            products = [
-                residual[i] * residual[j]
-                for k, i in enumerate(members)
-                for j in members[:k]
-                if len(residual[i]) == len(residual[j])
-            ]
+            products = [residual[i] * residual[j] for i, j in block.pairs(members)]
             if not products:
                 continue
             scale = len(members) / len(products)
