@@ -66,7 +66,7 @@ def _score(argv: list[str]) -> int:
     if not arguments.resume:
         log.unlink(missing_ok=True)
     start = time.perf_counter()
-    labels, digest = labels_of(seeds, arguments.workers)
+    labels, digest = labels_of(seeds, arguments.workers, log.parent)
     print(f"{len(labels)} labels made in {time.perf_counter() - start:.0f} s; sha256 {digest}", flush=True)
     keep = str(arguments.keep) if arguments.keep else None
     jobs = [Job(seed, arguments.method, keep) for seed in seeds]

@@ -86,24 +86,42 @@ def _pool_map(function: Any, items: Sequence[Any], workers: int) -> Iterator[Any
         yield from pool.imap_unordered(function, items)
 
 
-def labels_of(seeds: Sequence[int], workers: int) -> tuple[dict[int, dict[str, Any]], str]:
-    """Labels by seed, and the SHA-256 of all of them."""
-    found = {row["seed"]: row for row in _pool_map(_label, seeds, workers)}
-    text = "\n".join(json.dumps(found[seed], sort_keys=True) for seed in sorted(found))
-    return found, hashlib.sha256(text.encode()).hexdigest()
+def labels_of(seeds: Sequence[int], workers: int, cache: Path | None = None) -> tuple[dict[int, dict[str, Any]], str]:
+    """Labels by seed, and the SHA-256 of all of them; `cache` is a folder that keeps them for the same generator."""
+    kept = cache / f"blind-labels-{_generator_digest()}.jsonl" if cache else None
+    found = {row["seed"]: row for row in _lines(kept)} if kept else {}
+    new = list(_pool_map(_label, [seed for seed in seeds if seed not in found], workers))
+    if kept and new:
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        with kept.open("a", encoding="utf-8") as file:
+            file.write("".join(json.dumps(row) + "\n" for row in new))
+    found |= {row["seed"]: row for row in new}
+    chosen = {seed: found[seed] for seed in seeds}
+    text = "\n".join(json.dumps(chosen[seed], sort_keys=True) for seed in sorted(chosen))
+    return chosen, hashlib.sha256(text.encode()).hexdigest()
+
+
+def _generator_digest() -> str:
+    """Short hash of the generator's own files, so that labels of an older one are not taken for its."""
+    others = ("runner", "judge", "scorecard", "methods", "baselines", "dictionary", "__main__", "__init__")
+    files = sorted(p for p in Path(__file__).parent.glob("*.py") if p.stem not in others)
+    return hashlib.sha256(b"".join(p.read_bytes() for p in files)).hexdigest()[:12]
+
+
+def _lines(path: Path) -> list[dict[str, Any]]:
+    """Objects of a file of JSON lines; a line that was cut off by a crash is left out."""
+    rows = []
+    for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else []:
+        try:
+            rows.append(json.loads(line))
+        except json.JSONDecodeError:
+            continue
+    return rows
 
 
 def read_log(path: Path) -> dict[tuple[str, int], dict[str, Any]]:
-    """Answers by method and seed; a line that was cut off by a crash is left out."""
-    rows: dict[tuple[str, int], dict[str, Any]] = {}
-    if path.exists():
-        for line in path.read_text(encoding="utf-8").splitlines():
-            try:
-                row = json.loads(line)
-            except json.JSONDecodeError:
-                continue
-            rows[row["method"], row["seed"]] = row
-    return rows
+    """Answers by method and seed."""
+    return {(row["method"], row["seed"]): row for row in _lines(path)}
 
 
 def run(jobs: Sequence[Job], labels: dict[int, dict[str, Any]], log: Path, workers: int) -> Iterator[dict[str, Any]]:
