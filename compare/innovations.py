@@ -40,29 +40,34 @@ def innovations(x: Array, s2: float, phi: float, w2: float, out: Array) -> float
 
 @kernel
 def products(V: Array, begin: NDArray[np.intp], phi: float, rho2: float, P: Array) -> float:
-    """Add V^T [A(phi) + rho2 I]^-1 V of every record to `P` (records, k, k); return the sum of their log determinants.
+    """Write V^T [A(phi) + rho2 I]^-1 V of every record to `P` (records, 3, 3); return the sum of their log determinants.
 
-    The rows of `V` (N, k) hold the records one below the other, record i from ``begin[i]`` to ``begin[i + 1]``.
+    The rows of `V` (N, 3) hold the records one below the other, record i from ``begin[i]`` to ``begin[i + 1]``.
     """
-    k = V.shape[1]
     log_det = 0.0
-    predicted = np.empty(k)
-    v = np.empty(k)
+    F = inverse = log_F = 0.0
     for i in range(len(begin) - 1):
         variance = 1.0
-        predicted[:] = 0.0
+        x = y = z = 0.0  # predictions of the three columns
+        xx = xy = xz = yy = yz = zz = 0.0
         for t in range(begin[i], begin[i + 1]):
-            F = variance + rho2
-            gain = variance / F
-            for j in range(k):
-                v[j] = V[t, j] - predicted[j]
-                predicted[j] = phi * (predicted[j] + gain * v[j])
-            for a in range(k):
-                for b in range(a + 1):
-                    P[i, a, b] += v[a] * v[b] / F
-            log_det += np.log(F)
+            if variance + rho2 != F:  # the filter soon comes to rest
+                F = variance + rho2
+                inverse, log_F = 1.0 / F, np.log(F)
+            gain = variance * inverse
+            a, b, c = V[t, 0] - x, V[t, 1] - y, V[t, 2] - z
+            x, y, z = phi * (x + gain * a), phi * (y + gain * b), phi * (z + gain * c)
+            ai, bi = a * inverse, b * inverse
+            xx += a * ai
+            xy += b * ai
+            xz += c * ai
+            yy += b * bi
+            yz += c * bi
+            zz += c * c * inverse
+            log_det += log_F
             variance = phi * phi * (variance - gain * variance) + 1.0 - phi * phi
-        for a in range(k):
-            for b in range(a):
-                P[i, b, a] = P[i, a, b]
+        P[i, 0, 0], P[i, 1, 1], P[i, 2, 2] = xx, yy, zz
+        P[i, 0, 1] = P[i, 1, 0] = xy
+        P[i, 0, 2] = P[i, 2, 0] = xz
+        P[i, 1, 2] = P[i, 2, 1] = yz
     return log_det

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from compare import NoiseCovariance
-from compare.noise_likelihood import Contrast, fit_noise
+from compare.noise_likelihood import Contrast, _Columns, _with_record_scatter, fit_noise
 from geometry.errors import InputError
 
 N = 37
@@ -88,3 +88,56 @@ def test_identical_repeats_teach_nothing():
 def test_impossible_covariance_is_refused():
     with pytest.raises(InputError, match="phi = 1"):
         NoiseCovariance(s=1.0, phi=1.0)
+
+
+@pytest.mark.parametrize("white", [0.05, 0.7, 4.0])
+def test_white_part_agrees_with_the_dense_matrix(white):
+    """C = s^2 A + w^2 I + g^2 m m^T + b^2 1 1^T."""
+    case = (0.5, 0.9, 0.3, 0.2)
+    C, noise = dense(*case) + white**2 * np.eye(N), NoiseCovariance(*case, white=white)
+    x = np.random.default_rng(2).normal(size=N)
+    # all are sums of 37 terms in double precision
+    assert np.sum(noise.whiten(x, M) ** 2) == pytest.approx(x @ np.linalg.solve(C, x), rel=1e-10)
+    assert noise.log_determinant(M) == pytest.approx(np.linalg.slogdet(C)[1], rel=1e-10, abs=1e-10)
+    assert noise.floor(M) ** 2 == pytest.approx(np.trace(C) / N, rel=1e-12)
+    assert noise.mean_std(M) == pytest.approx(np.sqrt(C.sum()) / N, rel=1e-12)
+    np.testing.assert_allclose(noise.whiten(noise.whiten(C, M).T, M), np.eye(N), atol=1e-9)  # condition times eps
+
+
+def test_slopes_by_gain_and_offset_are_those_of_the_deviance(draw_noise):
+    """d deviance / d ln gamma in closed form is the central difference of the deviance."""
+    rng = np.random.default_rng(8)
+    columns = _Columns.of([Contrast(draw_noise(rng, M, 0.4, 0.5, 0.1, 0.3), M) for _ in range(3)], 1.0)
+    P, log_det = columns.products(0.4, 0.6)
+    gamma, beta, h = 0.3, 0.8, 1e-5
+    factors = np.exp(h * np.array([0.0, 1.0, -1.0, 0.0, 0.0])), np.exp(h * np.array([0.0, 0.0, 0.0, 1.0, -1.0]))
+    at = _with_record_scatter(P, log_det, gamma * factors[0], beta * factors[1], len(columns.V))
+    # differences of numbers of size 100 over 2e-5, second-order accurate
+    assert at.by_gain[0] == pytest.approx((at.deviance[1] - at.deviance[2]) / (2 * h), rel=1e-6)
+    assert at.by_offset[0] == pytest.approx((at.deviance[3] - at.deviance[4]) / (2 * h), rel=1e-6)
+    C = dense(1.0, 0.4, gamma, beta) + 0.6**2 * np.eye(N)
+    d = columns.V[:, 0].reshape(3, N)
+    square = float(np.sum(d * np.linalg.solve(C, d.T).T))
+    assert at.deviance[0] == pytest.approx(3 * N * np.log(square / (3 * N)) + 3 * np.linalg.slogdet(C)[1], rel=1e-10)
+
+
+def test_maximum_likelihood_recovers_the_white_part_on_average(draw_noise):
+    """A slow drift read with white noise; means over 20 campaigns lie within three standard errors of the truth."""
+    rng = np.random.default_rng(21)
+    m = 100 * np.sin(np.linspace(0, 12, 200))
+    truth = np.array([0.5, 1.0])
+    found = []
+    for _ in range(20):
+        d = [draw_noise(rng, m, 0.5, 0.95, 0.005, 0.3) + rng.normal(0, 1.0, m.size) for _ in range(8)]
+        fit = fit_noise([Contrast(x, m) for x in d])
+        found.append([fit.s**2, fit.white**2, fit.phi])
+    error = np.std(found, axis=0, ddof=1) / np.sqrt(len(found))
+    assert (np.abs(np.mean(found, axis=0) - [*truth**2, 0.95]) < 3 * error).all()
+    # 1600 samples give w^2 to 4 % and some 8 x 200 / 40 independent stretches s^2 to 25 %, over root 20 campaigns
+    assert error[0] < 0.1 * truth[0] ** 2 and error[1] < 0.015 * truth[1] ** 2
+
+
+def test_a_white_part_is_not_given_to_plain_ar_noise(draw_noise):
+    rng = np.random.default_rng(4)
+    m = 50 * np.sin(np.linspace(0, 9, 300))
+    assert fit_noise([Contrast(draw_noise(rng, m, 2.0, 0.6), m) for _ in range(8)]).white == 0.0
