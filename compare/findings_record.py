@@ -114,7 +114,7 @@ def _candidate(c: Candidate) -> dict[str, Any]:
         "kind": c.kind,
         "log_e": c.log_e,
         "share": c.share,
-        "parameters": {name: _parameter(p) for name, p in c.parameters.items()},
+        "parameters": {name: parameter_record(p) for name, p in c.parameters.items()},
         "note": c.note,
         "form": c.form,
         "needed": c.needed,
@@ -124,7 +124,8 @@ def _candidate(c: Candidate) -> dict[str, Any]:
     }
 
 
-def _parameter(p: ParameterValue) -> dict[str, Any]:
+def parameter_record(p: ParameterValue) -> dict[str, Any]:
+    """A parameter with its uncertainty; an open end of the plausible range is None."""
     plausible = None if p.plausible is None else [v if math.isfinite(v) else None for v in p.plausible]
     row: dict[str, Any] = {"value": p.value, "std": p.std, "unit": p.unit}
     return row | {"meaning": p.meaning, "plausible": plausible, "expected": p.expected}

@@ -9,6 +9,7 @@ from compare.findings import Separation
 from compare.findings_sentences import with_units
 
 CONFUSED = 0.05  # chance of confusion from which a pair is named
+TESTABLE_COLUMNS = ("effect", "D", "at a size of", "would be seen from")
 NOISE_COLUMNS = ("kind", "channel", "s", "phi", "white", "gain", "offset", "from")
 
 
@@ -45,7 +46,7 @@ def condition_rows(rows: Sequence[dict[str, Any]]) -> list[tuple[str, ...]]:
 def testable_rows(s: Separation, smallest_seen: Mapping[str, str]) -> list[tuple[str, ...]]:
     """Testable effects by their distance from the refitted base, in units of the noise."""
     order = sorted(range(len(s.effects)), key=lambda i: -s.distance[i])
-    return [(s.effects[i], f"{s.distance[i]:.3g}", smallest_seen.get(s.effects[i], s.size[i])) for i in order]
+    return [(s.effects[i], f"{s.distance[i]:.3g}", s.size[i], smallest_seen.get(s.effects[i], "-")) for i in order]
 
 
 def confused_rows(s: Separation) -> list[tuple[str, ...]]:

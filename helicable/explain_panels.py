@@ -27,6 +27,7 @@ from compare.residual_plot import autocorrelation, same_record, whitened, worst_
 from helicable import how_computed
 from helicable.campaign_tables import (
     NOISE_COLUMNS,
+    TESTABLE_COLUMNS,
     condition_rows,
     confused_rows,
     kind_rows,
@@ -76,7 +77,7 @@ def _data(f: Findings, pictures: Mapping[str, Path]) -> Panel:
         Table("What was recorded (SI units)", columns, kind_rows(rows), right=(1, 2, 5)),
         Table("Conditions", ("kind", "condition", "from", "to", "values"), condition_rows(rows), right=(2, 3, 4)),
         Table("Noise (SI units)", NOISE_COLUMNS, noise, right=(2, 3, 4, 5, 6)),
-        Table("What can be shown", ("effect", "D", "at a size of"), testable_rows(s, f.smallest_seen), right=(1,)),
+        Table("What can be shown", TESTABLE_COLUMNS, testable_rows(s, f.smallest_seen), right=(1,)),
         Table("Not testable with these data", ("effect", "why"), untestable),
         Table("Pairs that may be confused", ("effect", "taken for", "chance"), confused_rows(s), right=(2,)),
     ]

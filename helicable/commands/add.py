@@ -8,6 +8,7 @@ import typer
 
 from compare import Comparison, plot_comparison
 from compare import compare as compare_with
+from compare.findings_record import parameter_record
 from compare.findings_sentences import uncertain
 from compare.kinds import SETS
 from helicable.bench_campaign import bench_model, read_bench_campaign
@@ -53,28 +54,10 @@ def add_record(names: tuple[str, ...], before: Comparison, after: Comparison) ->
         "effects": list(names),
         "error": error,
         "calibrated": {"before": first["calibrated"], "after": second["calibrated"]},
-        "parameters": active_parameters(after),
+        "parameters": {name: parameter_record(p) for name, p in after.calibration.parameters.items()},
         "where": second["where"],
         "notes": list(dict.fromkeys([*first["notes"], *second["notes"]])),
     }
-
-
-def active_parameters(comparison: Comparison) -> list[dict[str, Any]]:
-    """Values of the effects that are switched on in the calibrated model; strengths are ratios of the stiffness."""
-    rows = []
-    for active in comparison.model.effects:
-        given = (*zip(active.form.shape, active.shape), *zip(active.form.strength, active.strength))
-        for parameter, value in given:
-            row = {
-                "effect": active.effect.name,
-                "form": active.form.name,
-                "kind": active.kind,
-                "channel": active.channel,
-            }
-            rows.append(
-                {**row, "parameter": parameter.name, "value": float(value), "unit": parameter.unit_for(active.kind)}
-            )
-    return rows
 
 
 def show_addition(record: dict[str, Any]) -> None:
@@ -89,14 +72,7 @@ def show_addition(record: dict[str, Any]) -> None:
     ]
     table("Calibrated stiffness", ("", "before", "after", "unit"), found, right=(1, 2))
     values = [
-        (
-            p["effect"],
-            p["kind"] + (f" {p['channel']}" if p["channel"] else ""),
-            p["parameter"],
-            f"{p['value']:.4g}",
-            p["unit"],
-        )
-        for p in record["parameters"]
+        (name, uncertain(p["value"], p["std"], p["unit"]), p["meaning"]) for name, p in record["parameters"].items()
     ]
-    table("Parameters of the effects", ("effect", "in", "parameter", "value", "unit"), values, right=(3,))
+    table("Parameters of the effects", ("parameter", "value", "meaning"), values, right=(1,))
     sheet("Notes", [("-", note) for note in record["notes"]])

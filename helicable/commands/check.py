@@ -10,6 +10,7 @@ from helicable.bench_campaign import bench_model, read_bench_campaign
 from helicable.campaign_tables import (
     CONFUSED,
     NOISE_COLUMNS,
+    TESTABLE_COLUMNS,
     condition_rows,
     confused_rows,
     kind_rows,
@@ -49,7 +50,7 @@ def show_check(found: Check, record: dict[str, Any]) -> None:
     table(title, NOISE_COLUMNS, noise_cells(record["noise"]), right=(2, 3, 4, 5, 6))
     table(
         "What these experiments can show",
-        ("effect", "D", "at a size of"),
+        TESTABLE_COLUMNS,
         testable_rows(found.separation, found.smallest_seen),
         right=(1,),
     )

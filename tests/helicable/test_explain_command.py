@@ -169,3 +169,35 @@ def test_a_title_with_brackets_is_shown_as_it_is(folder, explained, capsys):
     toml.write_text(toml.read_text().replace("Bench tests", "[/bold] Bench [b]tests"))
     assert main(["compare", str(folder)]) == 0
     assert "[/bold] Bench [b]tests" in capsys.readouterr().out
+
+
+def test_add_switches_an_effect_on_and_the_error_falls(folder, tmp_path, capsys):
+    """The made loops are no more than half those of friction: the error falls on both sets, sealed ones stay closed."""
+    file = tmp_path / "add.json"
+    assert main(["add", str(folder), "interlayer-friction", "--json", str(file), "--out", str(tmp_path / "out")]) == 0
+    record = json.loads(file.read_text())
+    for name in ("calibrate", "validate"):
+        assert record["error"][name]["after"] < 0.6 * record["error"][name]["before"]
+    assert record["error"]["sealed"] is None
+    assert any(name.startswith("interlayer-friction") for name in record["parameters"])
+    assert {"before", "after"} == set(record["calibrated"])
+    assert (tmp_path / "out" / "overview.png").is_file() and (tmp_path / "out" / "add.json").is_file()
+    assert "interlayer-friction" in capsys.readouterr().out
+
+
+def test_adding_what_is_not_in_the_library_is_a_sentence(folder, capsys):
+    assert main(["add", str(folder), "interlayer-fricton"]) == 2
+    assert "interlayer-friction" in capsys.readouterr().err
+
+
+def test_check_of_a_real_folder_reads_everything_but_the_sealed_tables(folder, tmp_path):
+    """Numbers of the campaign that the test wrote come back; the sealed rows show their list entry only."""
+    file = tmp_path / "c.json"
+    assert main(["check", str(folder), "--json", str(file)]) == 0
+    record = json.loads(file.read_text())
+    rows = {r["id"]: r for r in record["experiments"]}
+    assert rows["b03a"]["largest"] == pytest.approx(1.6, rel=1e-3)
+    assert rows["b05a"]["set"] == "sealed" and rows["b05a"]["rows"] is None
+    assert record["noise"][0]["s"] == pytest.approx(0.4, rel=0.1)  # as the test drew it
+    assert "thermal-softening" in [u["effect"] for u in record["untestable"]]
+    assert "interlayer-friction" in record["separation"]["effects"]
