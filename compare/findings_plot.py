@@ -14,7 +14,7 @@ import numpy as np
 
 from compare.excess_plot import closed_loops, conditions_figure, covariates, loop_energy_figure, where_figure
 from compare.findings import Findings, Separation
-from compare.findings_sentences import BASELINES, listed, named
+from compare.findings_sentences import listed, named, steps_taken
 from compare.kinds import SETS
 from compare.plot_style import BLUE, GREEN, GREY, INK, PAGE_WIDTH, SKY, STYLE, VERMILLION, title
 from compare.residual_plot import record_figure, worst_and_typical
@@ -70,7 +70,7 @@ def _pictures(f: Findings) -> Mapping[str, Callable[[], Figure]]:
             pictures["loop-energy"] = lambda: loop_energy_figure(f)
     if f.ranking:
         pictures["ranking"] = lambda: ranking_figure(f)
-    if f.path:
+    if steps_taken(f):
         pictures["path"] = lambda: path_figure(f)
     if f.errors:
         pictures["errors"] = lambda: errors_figure(f)
@@ -127,8 +127,9 @@ def path_figure(f: Findings) -> Figure:
     """Error of the calibration set after each effect that was added."""
     from matplotlib.figure import Figure
 
+    steps_made = steps_taken(f)
     start = f.errors["calibrate"].before if "calibrate" in f.errors else f.comparison.relative_error("calibrate")
-    errors = np.array([start or np.nan, *(step.error for step in f.path)])
+    errors = np.array([start or np.nan, *(step.error for step in steps_made)])
     figure = Figure(figsize=(PAGE_WIDTH, 2.7))
     axes = figure.add_subplot()
     steps = np.arange(len(errors))
@@ -139,7 +140,7 @@ def path_figure(f: Findings) -> Figure:
         axes.annotate(f"{value:.3g}", (i, value), (9, 5), textcoords="offset points", fontsize=8.5, color=INK)
     axes.axhline(1.0, color=INK, lw=1.0, ls=":")
     axes.annotate("noise floor", (-0.35, 1.0), (0, 3), textcoords="offset points", fontsize=8, color=INK)
-    axes.set_xticks(steps, ["base model", *(f"+ {s.added}\n{s.form}, log e {s.log_e:.3g}" for s in f.path)])
+    axes.set_xticks(steps, ["base model", *(f"+ {s.added}\n{s.form}, log e {s.log_e:.3g}" for s in steps_made)])
     axes.set_xlim(-0.4, len(errors) - 0.5)
     axes.set_ylim(0, 1.15 * float(np.nanmax(errors)))
     axes.set_ylabel("error [noise floors]")
@@ -183,7 +184,7 @@ def _draw_set(axes: Axes, row: int, f: Findings, name: str, used: dict[str, Any]
     if f.effects:
         (used["with effects"],) = axes.plot(e.after, row, "o", color=GREEN, ms=8)
     for marker, (baseline, value) in zip("sDvP", e.baselines.items()):
-        (used[BASELINES.get(baseline, baseline)],) = axes.plot(value, row, marker, mfc="none", mec=BLUE, ms=6.5)
+        (used[baseline],) = axes.plot(value, row, marker, mfc="none", mec=BLUE, ms=6.5)
     if e.ratio is not None:
         interval = (
             f" [{e.ratio_low:.2g}, {e.ratio_high:.2g}]" if e.ratio_low is not None and e.ratio_high is not None else ""

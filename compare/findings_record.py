@@ -18,7 +18,7 @@ from compare.campaign import Campaign
 from compare.comparison import Comparison
 from compare.comparison_record import comparison_record, finite_content, noise_rows
 from compare.findings import Candidate, Check, Findings, NextExperiment, ParameterValue, Separation, SetError, Step
-from compare.findings_sentences import missing_effect, with_units
+from compare.findings_sentences import missing_effect, named, parameters_of, with_units
 from compare.kinds import SETS
 
 UNIT = "relative to the noise floor"
@@ -63,6 +63,9 @@ def findings_record(findings: Findings) -> dict[str, Any]:
         "headline": headline(f),
         "uncalibrated": {name: f.comparison.relative_error(name, before=True) for name in SETS},
         **_calibrated(f),
+        "parameters": {
+            name: {key: parameter_record(p) for key, p in parameters_of(f, name).items()} for name in named(f)
+        },
         "path": [_step_row(step) for step in f.path],
         "smallest_seen": dict(f.smallest_seen),
         "separation": _separation(f.separation),

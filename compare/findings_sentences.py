@@ -9,7 +9,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from compare.comparison import ChannelFit, Comparison
-from compare.findings import Candidate, Findings, ParameterValue, SetError
+from compare.findings import Candidate, Findings, ParameterValue, SetError, Step
 from compare.kinds import CONDITIONS, SETS
 
 VERDICTS = {
@@ -19,11 +19,7 @@ VERDICTS = {
     "confusable": "these explain the data equally well",
     "unknown": "something is missing that the library does not have",
 }
-BASELINES = {
-    "gaussian-process": "GP patch",
-    "gp": "GP patch",
-    "refit": "refit of the old model",
-}
+BASELINES = {"Gaussian process patch": "GP patch", "refit of the old model": "refit"}  # where there is little room
 _MOST_NAMED = 3
 
 
@@ -132,9 +128,17 @@ def candidate_of(findings: Findings, name: str) -> Candidate | None:
     return next((c for c in findings.ranking if c.effect == name), None)
 
 
-def parameter_sentences(candidate: Candidate) -> list[str]:
+def parameters_of(findings: Findings, effect: str) -> dict[str, ParameterValue]:
+    """Parameters of an effect: as calibrated in the final model, else as they were when it was tried."""
+    mark = f"{effect}: "
+    final = {k.removeprefix(mark): p for k, p in findings.after.calibration.parameters.items() if k.startswith(mark)}
+    candidate = candidate_of(findings, effect)
+    return final or (dict(candidate.parameters) if candidate is not None else {})
+
+
+def parameter_sentences(findings: Findings, effect: str) -> list[str]:
     """Every parameter with its uncertainty, and beside it what the geometry of the cable would give, if known."""
-    return [parameter_sentence(name, p) for name, p in candidate.parameters.items()]
+    return [parameter_sentence(name, p) for name, p in parameters_of(findings, effect).items()]
 
 
 def parameter_sentence(name: str, p: ParameterValue) -> str:
@@ -187,7 +191,7 @@ def held_out(findings: Findings) -> str:
 def error_sentence(e: SetError) -> str:
     """Before, after, ratio with its interval, baselines.
 
-    >>> error_sentence(SetError(3.4, 1.05, 1.0, 0.15, 0.11, 0.2, {"refit": 3.3}, True))
+    >>> error_sentence(SetError(3.4, 1.05, 1.0, 0.15, 0.11, 0.2, {"refit of the old model": 3.3}, True))
     '3.4 -> 1.05 x floor, excess ratio 0.15 [0.11, 0.2], confirmed; refit of the old model 3.3'
     """
     text = f"{e.before:.3g} -> {e.after:.3g} x floor"
@@ -197,7 +201,7 @@ def error_sentence(e: SetError) -> str:
             text += f" [{e.ratio_low:.2g}, {e.ratio_high:.2g}]"
     if e.confirmed is not None:
         text += ", confirmed" if e.confirmed else ", NOT CONFIRMED"
-    others = [f"{BASELINES.get(k, k)} {v:.3g}" for k, v in e.baselines.items()]
+    others = [f"{k} {v:.3g}" for k, v in e.baselines.items()]
     return text + (f"; {', '.join(others)}" if others else "")
 
 
@@ -218,6 +222,11 @@ def what_next(findings: Findings) -> str:
         f"; a repeat of what exists would give {_probability(n.p_wrong_repeat)}" if n.p_wrong_repeat is not None else ""
     )
     return f"{text}: P(wrong) {_probability(n.p_wrong_before)} -> {_probability(n.p_wrong_after)}{repeat}."
+
+
+def steps_taken(findings: Findings) -> list[Step]:
+    """The effects of the path, without the base model at its start."""
+    return [s for s in findings.path if s.log_e != 0 or s.added in findings.effects]
 
 
 def first_screen(findings: Findings) -> tuple[tuple[str, str], ...]:
@@ -245,8 +254,8 @@ def with_units(conditions: Mapping[str, float]) -> dict[str, float]:
 
 def _found(findings: Findings) -> list[str]:
     """Parameters of what the verdict names, a sentence each."""
-    found = [(name, candidate_of(findings, name)) for name in named(findings)]
-    return [f"{name}: {', '.join(parameter_sentences(c)[:_MOST_NAMED])}." for name, c in found if c and c.parameters]
+    found = {name: parameter_sentences(findings, name)[:_MOST_NAMED] for name in named(findings)}
+    return [f"{name}: {', '.join(words)}." for name, words in found.items() if words]
 
 
 def _condition(name: str, value: float) -> str:

@@ -16,7 +16,9 @@ from compare.findings_sentences import (
     missing_effect,
     model_against_data,
     named,
+    parameters_of,
     rivals_sentence,
+    steps_taken,
     uncalibrated,
     uncertain,
     what_next,
@@ -187,10 +189,9 @@ def _which(f: Findings, pictures: Mapping[str, Path]) -> Panel:
         for c in f.ranking
     ]
     parameters = [
-        (c.effect, name, uncertain(p.value, p.std, p.unit), _range(p.plausible), p.expected, p.meaning)
-        for c in f.ranking
-        if c.effect in inside
-        for name, p in c.parameters.items()
+        (effect, name, uncertain(p.value, p.std, p.unit), _range(p.plausible), p.expected, p.meaning)
+        for effect in inside
+        for name, p in parameters_of(f, effect).items()
     ]
     heads = ("effect", "kind", "form", "log e", "needed", "share", "behind", "folds", "why (not)")
     found = ("effect", "parameter", "value", "usual range", "from the cable itself", "meaning")
@@ -231,13 +232,11 @@ def _path(f: Findings, pictures: Mapping[str, Path]) -> Panel:
             f"{100 * step.share:.0f} %",
             step.note,
         )
-        for i, step in enumerate(f.path, start=1)
+        for i, step in enumerate(steps_taken(f), start=1)
     ]
     heads = ("step", "added", "form", "log e", "error [floors]", "share", "note")
     text = "" if rows else "Nothing was added: no effect passed the gate alone."
-    light = (
-        error_light(f.path[-1].error) if f.path else Light("good" if f.verdict == "none" else "mind", "nothing added")
-    )
+    light = error_light(f.path[-1].error) if rows else Light("good" if f.verdict == "none" else "mind", "nothing added")
     tables = [Table("Steps", heads, rows, right=(0, 3, 4, 5))] if rows else []
     caption = {"path": "The error on the calibration set falls with every effect that is accepted"}
     return Panel("The path", text, _figures(pictures, caption), tables, light, how_computed.PATH)

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from compare.findings import Findings, NextExperiment, SetError, Untestable
 from compare.findings_sentences import (
     BASELINES,
-    candidate_of,
     listed,
     missing_effect,
     model_against_data,
@@ -46,10 +45,10 @@ def _paragraphs(name: str, sentences: Sequence[str]) -> list[tuple[str, str]]:
 
 def _parameters(findings: Findings) -> list[str]:
     """Parameters of everything that the verdict names, one line each effect."""
-    found = [(name, candidate_of(findings, name)) for name in named(findings)]
-    lines = [(name, parameter_sentences(c)) for name, c in found if c is not None and c.parameters]
-    most = _MOST if len(lines) < _MOST else 2
-    return [f"{name}: {'; '.join(p[:most])}{' ...' if len(p) > most else ''}" for name, p in lines[: _MOST + 1]]
+    found = {name: parameter_sentences(findings, name) for name in named(findings)}
+    most = _MOST if len(found) < _MOST else 2
+    lines = [f"{name}: {'; '.join(p[:most])}{' ...' if len(p) > most else ''}" for name, p in found.items() if p]
+    return lines[: _MOST + 1]
 
 
 def untestable_sentences(untestable: Sequence[Untestable]) -> list[str]:

@@ -125,7 +125,7 @@ def test_sentences_carry_the_numbers():
     screen = dict(first_screen(made_findings("identified")))
     assert "log e 214 (needs 7.5)" in screen["Missing effect"] and "97 %" in screen["Missing effect"]
     assert "3.4 -> 1.05 x floor, excess ratio 0.15 [0.11, 0.2], confirmed" in screen["Held out"]
-    assert "GP patch 2.7" in screen["Held out"]
+    assert "Gaussian process patch 2.7" in screen["Held out"]
     assert "50 % -> 1e-04" in dict(first_screen(made_findings("confusable")))["Next"]
     assert "a slip limit of 0.2 N m" in dict(first_screen(made_findings("none")))["Missing effect"]
 
