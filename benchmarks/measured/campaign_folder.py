@@ -59,3 +59,18 @@ def write_campaign(
         body = "\n".join(",".join(f"{v:.12g}" for v in row) for row in values)
         (folder / f"{id}.csv").write_text(f"{','.join(table)}\n{body}\n", encoding="utf-8")
     return folder
+
+
+def monotonic_campaign(
+    folder: Path, toml: str, row: Mapping[str, str], table: Mapping[str, Array], pieces: int
+) -> Path:
+    """Write one monotonic curve as `pieces` experiments of the set calibrate, each going on where the last one ended.
+
+    A single record could not be left out of its own fit; its pieces can.
+    """
+    rows, tables, n = [], {}, len(next(iter(table.values())))
+    for i, part in enumerate(np.array_split(np.arange(n), pieces)):
+        id = f"part{i + 1}"
+        rows.append({**row, "id": id, "set": "calibrate", "continues": "" if i == 0 else f"part{i}"})
+        tables[id] = {name: values[part] for name, values in table.items()}
+    return write_campaign(folder, toml, rows, tables)

@@ -8,12 +8,14 @@ no axial tension grips it; length and nominal stiffness only set a scale.
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.measured.campaign_folder import read_table, write_campaign
+from benchmarks.measured.reading_error import pixel_of_the_path
 
 Array = NDArray[np.float64]
 NAME = "ganey-2015-damper"
@@ -43,14 +45,14 @@ def write(data: Path, folder: Path, shuffle: int | None = None) -> Path:
     """
     loop = read_table(data / NAME / "loop.csv", ("displacement [mm]", "force [kN]"))
     x, force = loop.T
-    noise = reading_error(x, force)
+    noise = pixel_of_the_path(x, force)
     if shuffle is not None:
         slope = float(x @ force / (x @ x))
         residual = np.random.default_rng(shuffle).permutation(force - slope * x)
         force, noise = slope * x + residual, float(np.sqrt(np.mean(residual**2)))
     ends = [0, *cycle_ends(x), len(x)]
     rows, tables = [], {}
-    for i, (begin, end) in enumerate(zip(ends[:-1], ends[1:], strict=True)):
+    for i, (begin, end) in enumerate(pairwise(ends)):
         id = f"cycle{i + 1}"
         rows.append(
             {
@@ -75,14 +77,3 @@ def cycle_ends(x: Array) -> list[int]:
     """
     up = np.flatnonzero((x[:-1] < 0) & (x[1:] >= 0)) + 1
     return [int(i) for i in up if i < len(x) - 3]
-
-
-def reading_error(x: Array, force: Array) -> float:
-    """Standard deviation of a force read off a figure: a pixel of the path times the steepest slope of the loop.
-
-    The displacements lie on a raster; the loop climbs so steeply that half a line width along the path is most of it.
-    """
-    steps = np.diff(np.unique(np.round(x, 6)))
-    pixel = float(steps[steps > 1e-5].min())
-    first = np.flatnonzero(np.abs(x) > 0.05 * np.abs(x).max())[0]
-    return pixel * abs(float(x[:first] @ force[:first] / (x[:first] @ x[:first])))
