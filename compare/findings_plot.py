@@ -14,7 +14,7 @@ import numpy as np
 
 from compare.excess_plot import closed_loops, conditions_figure, covariates, loop_energy_figure, where_figure
 from compare.findings import Findings, Separation
-from compare.findings_sentences import listed, named, steps_taken
+from compare.findings_sentences import listed, named, nats, steps_taken
 from compare.kinds import SETS
 from compare.plot_style import BLUE, GREEN, GREY, INK, PAGE_WIDTH, SKY, STYLE, VERMILLION, title
 from compare.residual_plot import record_figure, worst_and_typical
@@ -74,7 +74,7 @@ def _pictures(f: Findings) -> Mapping[str, Callable[[], Figure]]:
         pictures["path"] = lambda: path_figure(f)
     if f.errors:
         pictures["errors"] = lambda: errors_figure(f)
-    if len(f.separation.effects) > 1:
+    if np.any(np.triu(np.maximum(f.separation.confusion, np.transpose(f.separation.confusion)), 1) >= 0.005):
         pictures["confusion"] = lambda: confusion_figure(f.separation)
     return pictures
 
@@ -96,7 +96,7 @@ def ranking_figure(f: Findings) -> Figure:
         panels[0].barh(rows[i], log_e[i], **look)
         panels[1].barh(rows[i], 100 * max(share[i], 0.0), **look)
         panels[0].annotate(
-            f"{log_e[i]:.3g}",
+            nats(log_e[i]),
             (max(log_e[i], 0), rows[i]),
             (3, 0),
             textcoords="offset points",
@@ -110,7 +110,7 @@ def ranking_figure(f: Findings) -> Figure:
     panels[0].axvline(ranking[0].needed, color=INK, lw=1.0, ls="--")
     panels[0].set_xscale("symlog", linthresh=10.0)
     panels[0].set_xlim(min(-1.0, float(log_e.min())), 4 * max(20.0, float(log_e.max())))
-    panels[0].set_xlabel(f"log e against the base model (dashed: {ranking[0].needed:.2g} needed)")
+    panels[0].set_xlabel(f"log e against the base model (dashed: {nats(ranking[0].needed)} needed)")
     panels[1].set_xlim(0, 118)
     panels[1].set_xlabel("share removed [%]")
     panels[0].set_yticks(rows, [_bar_name(c.effect, f) for c in ranking], fontsize=8)
@@ -140,7 +140,7 @@ def path_figure(f: Findings) -> Figure:
         axes.annotate(f"{value:.3g}", (i, value), (9, 5), textcoords="offset points", fontsize=8.5, color=INK)
     axes.axhline(1.0, color=INK, lw=1.0, ls=":")
     axes.annotate("noise floor", (-0.35, 1.0), (0, 3), textcoords="offset points", fontsize=8, color=INK)
-    axes.set_xticks(steps, ["base model", *(f"+ {s.added}\n{s.form}, log e {s.log_e:.3g}" for s in steps_made)])
+    axes.set_xticks(steps, ["base model", *(f"+ {s.added}\n{s.form}, log e {nats(s.log_e)}" for s in steps_made)])
     axes.set_xlim(-0.4, len(errors) - 0.5)
     axes.set_ylim(0, 1.15 * float(np.nanmax(errors)))
     axes.set_ylabel("error [noise floors]")

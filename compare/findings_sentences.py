@@ -44,6 +44,15 @@ def uncertain(value: float, std: float, unit: str = "") -> str:
     return f"{round(value, digits):.{kept}f} ± {round(std, digits):.{kept}f} {unit}".rstrip()
 
 
+def nats(value: float) -> str:
+    """An evidence or a gap in nats: digits as far as they matter.
+
+    >>> nats(7.18), nats(-2.44), nats(40810.3)
+    ('7.2', '-2.4', '40810')
+    """
+    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.1f}"
+
+
 def listed(names: Sequence[str], joint: str = "and", most: int = 99) -> str:
     """Words with commas and a last joint.
 
@@ -119,8 +128,8 @@ def _evidence(findings: Findings, name: str) -> str:
         return name
     log_e = step.log_e if step is not None else candidate.log_e if candidate else math.nan
     share = step.share if step is not None else candidate.share if candidate else math.nan
-    gate = f" (needs {candidate.needed:.2g})" if candidate is not None else ""
-    return f"{name}, log e {log_e:.3g}{gate}, explains {_percent(share)} of the excess"
+    gate = f" (needs {nats(candidate.needed)})" if candidate is not None else ""
+    return f"{name}, log e {nats(log_e)}{gate}, explains {_percent(share)} of the excess"
 
 
 def candidate_of(findings: Findings, name: str) -> Candidate | None:
@@ -166,8 +175,8 @@ def rivals(findings: Findings) -> list[Candidate]:
 
 def rivals_sentence(c: Candidate) -> str:
     """Why it is not this one."""
-    gate = "" if c.log_e >= c.needed else f", log e {c.log_e:.3g} below the {c.needed:.2g} that are needed"
-    return f"{c.effect}: {c.note or f'{c.behind:.3g} nats behind, explains {_percent(c.share)}{gate}'}"
+    gate = "" if c.log_e >= c.needed else f", log e {nats(c.log_e)} below the {nats(c.needed)} that are needed"
+    return f"{c.effect}: {c.note or f'{nats(c.behind)} nats behind, explains {_percent(c.share)}{gate}'}"
 
 
 def why_not(findings: Findings) -> str:

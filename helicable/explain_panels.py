@@ -16,6 +16,7 @@ from compare.findings_sentences import (
     missing_effect,
     model_against_data,
     named,
+    nats,
     parameters_of,
     rivals_sentence,
     steps_taken,
@@ -179,10 +180,10 @@ def _which(f: Findings, pictures: Mapping[str, Path]) -> Panel:
             c.effect,
             c.kind,
             c.form,
-            f"{c.log_e:.3g}",
-            f"{c.needed:.2g}",
+            nats(c.log_e),
+            nats(c.needed),
             f"{100 * c.share:.0f} %",
-            f"{c.behind:.3g}",
+            nats(c.behind),
             f"{c.positive_folds} of {c.folds}",
             _role(c.effect, f) if c.effect in inside else rivals_sentence(c).split(": ", 1)[1],
         )
@@ -218,7 +219,10 @@ def _role(effect: str, f: Findings) -> str:
 
 
 def _range(plausible: tuple[float, float] | None) -> str:
-    return "" if plausible is None else f"{plausible[0]:.3g} to {plausible[1]:.3g}"
+    if plausible is None:
+        return ""
+    low, high = plausible
+    return f"from {low:.3g}" if np.isinf(high) else f"{low:.3g} to {high:.3g}"
 
 
 def _path(f: Findings, pictures: Mapping[str, Path]) -> Panel:
@@ -227,7 +231,7 @@ def _path(f: Findings, pictures: Mapping[str, Path]) -> Panel:
             str(i),
             step.added,
             step.form,
-            f"{step.log_e:.3g}",
+            nats(step.log_e),
             f"{step.error:.3g}",
             f"{100 * step.share:.0f} %",
             step.note,

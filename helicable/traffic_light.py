@@ -43,4 +43,6 @@ def held_out_light(errors: Mapping[str, SetError]) -> Light:
         return Light("bad", "not confirmed")
     if True in words:
         return Light("good", "confirmed")
+    if any(e.ratio is not None for e in errors.values()):
+        return Light("mind", "too few to confirm")
     return Light("mind", "nothing to confirm" if words else "no held-out data")

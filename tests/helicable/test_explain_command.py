@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pathlib
 import sys
 import types
 from dataclasses import replace
@@ -27,6 +28,7 @@ cable_length = "40 m"
 tail_tension = "800 N"
 inclination = "6 deg"
 """
+SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "data" / "campaigns" / "example-tension"
 TOWED = "time [s],position [m],tension [N]\n" + "".join(f"{t},{0.01 * t},{800 + t}\n" for t in range(20))
 
 
@@ -201,3 +203,30 @@ def test_check_of_a_real_folder_reads_everything_but_the_sealed_tables(folder, t
     assert record["noise"][0]["s"] == pytest.approx(0.4, rel=0.1)  # as the test drew it
     assert "thermal-softening" in [u["effect"] for u in record["untestable"]]
     assert "interlayer-friction" in record["separation"]["effects"]
+
+
+def test_the_campaign_that_ships_has_no_missing_effect(tmp_path, capsys):
+    """Nothing replaced: explain runs, says none, follows its schema and writes its page."""
+    file, out = tmp_path / "f.json", tmp_path / "out"
+    assert main(["explain", str(SHIPPED), "--json", str(file), "--out", str(out)]) == 0
+    record = json.loads(file.read_text())
+    assert record["verdict"] == "none" and record["effects"] == [] and record["smallest_seen"]
+    assert record["error"]["calibrate"]["after"] < 1.2
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert "none: no missing effect found" in page and json.loads((out / "explain.json").read_text()) == record
+    assert "Missing none" in squeezed(capsys.readouterr().out)
+    jsonschema = pytest.importorskip("jsonschema")
+    jsonschema.validate(record, explain_schema())
+
+
+def test_opening_the_seal_of_a_real_folder_judges_the_fixed_model(folder, tmp_path):
+    """Opening changes the error of the sealed set and nothing else that was found."""
+    closed, opened = tmp_path / "closed.json", tmp_path / "opened.json"
+    words = ["explain", str(folder), "--effects", "interlayer-friction,viscous-damping", "--json"]
+    assert main([*words, str(closed)]) == 0
+    assert main([*words, str(opened), "--open-sealed"]) == 0
+    before, after = json.loads(closed.read_text()), json.loads(opened.read_text())
+    assert before["error"]["sealed"] is None and after["error"]["sealed"]["after"] < after["error"]["sealed"]["before"]
+    for key in ("verdict", "effects", "confusable", "ranking", "path", "parameters", "calibrated_with_effects"):
+        assert before[key] == after[key], key
+    assert after["sealed_opened"] is True and any("sealed experiments were opened" in n for n in after["notes"])
