@@ -8,7 +8,7 @@ are called model, never measurement.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -189,6 +189,22 @@ def compare(model: BenchModel, campaign: Campaign, progress: Progress | None = N
     notes = (*noise.notes, *calibration.notes, *_notes(campaign, bench, gaps))
     report(1.0, "compared")
     return Comparison(campaign, model, calibration, noise, tuple(fits), tuple(gaps), tests, notes)
+
+
+def compare_calibrated(comparison: Comparison, campaign: Campaign) -> Comparison:
+    """The models and the noise of a comparison, held as they are, beside the experiments of a campaign.
+
+    Parameters
+    ----------
+    comparison : Comparison
+        Whose calibration is used; nothing is fitted.
+    campaign : Campaign
+        May have sealed experiments that were opened since.
+    """
+    model, noise = comparison.nominal, comparison.noise
+    bench = [e for e in campaign.readable if model.covers(e) and all((e.kind, c) in noise.by_channel for c in e.record.measured)]
+    fits = tuple(fit for e in bench for fit in _fit_experiment(e, model, comparison.model, noise, bench))
+    return replace(comparison, campaign=campaign, fits=fits, lack_of_fit=_lack_of_fit(fits, noise, comparison.calibration))
 
 
 def _fit_experiment(

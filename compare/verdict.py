@@ -18,7 +18,7 @@ Bonferroni over what was tried; the others were set on simulated campaigns other
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -32,11 +32,11 @@ ADEQUATE_Z = 3.0
 CLEAR_Z = 5.0
 CLEAR_F = 1.05
 TIE = 3.5
-IDENTIFIED, FAMILY = 0.95, 0.70
+IDENTIFIED, FAMILY = 0.95, 0.85
 _MOST = 3
 _WORTH_FORM = 5.0
 _SMALLEST_SECOND = 0.004  # of the gain of the first effect
-_REST_LEFT = 0.6  # part of the misfit that a further effect may leave
+_REST_LEFT = 0.4  # part of the misfit that a further effect may leave
 _TRIED_TOGETHER = 3
 _NEGLIGIBLE = 0.02  # of the first misfit
 
@@ -110,9 +110,27 @@ def _forward(first: Stage, before: SharedMisfit, tell: Progress) -> list[Taken]:
         if further is None:
             break
         steps.append(further)
+    steps = _backward(steps, before)
     left = steps[-1].misfit
     if left.z > ADEQUATE_Z and left.T > _NEGLIGIBLE * before.T:
         steps = _pair(first, steps, before) or steps
+    return steps
+
+
+def _backward(steps: list[Taken], before: SharedMisfit) -> list[Taken]:
+    """Effects that the later ones have made unnecessary are taken out again."""
+    for taken in steps[:-1]:
+        if len(steps) < 3:
+            break
+        now = steps[-1].after
+        rest = now.without(taken.attempt.effect.name)
+        rest = rest.upgraded(rest.names)
+        without = rest.misfit()
+        adequate = without.z < ADEQUATE_Z and without.T - steps[-1].misfit.T < ADEQUATE_Z * without.std
+        adequate |= without.T < _NEGLIGIBLE * before.T
+        if adequate or rest.score - now.score < max(rest.needed, _SMALLEST_SECOND * steps[0].attempt.gain):
+            steps = [s for s in steps if s is not taken]
+            steps[-1] = replace(steps[-1], after=rest, misfit=without)
     return steps
 
 
@@ -193,17 +211,32 @@ def _pair(first: Stage, steps: Sequence[Taken], before: SharedMisfit) -> list[Ta
 
 
 def _rivals(final: Stage) -> tuple[Stage, dict[str, tuple[Attempt, ...]]]:
-    """For every accepted effect what would do in its place, itself among them, best first."""
-    rivals = {}
+    """For every accepted effect what would do in its place, itself among them, best first.
+
+    Where another one does clearly better it takes the place, once: what came first may have stood for what came later.
+    """
+    rivals: dict[str, tuple[Attempt, ...]] = {}
     for name in final.names:
-        rest = final.without(name)
-        attempts = rest.plain()
-        own = [t for terms in final.accepted for t in terms if t.effect.name == name]
-        if any(t.form is not t.effect.forms[0] for t in own):
-            passing = [a.effect.name for a in attempts if a.log_e > rest.needed]
-            attempts = rest.rich([*passing, name])
-        rivals[name] = tuple(a for a in attempts if a.effect.name == name or a.effect.name not in final.names)
-    return final, rivals
+        attempts = _in_place_of(final, name)
+        best = attempts[0]
+        mine = next((a for a in attempts if a.effect.name == name), None)
+        if mine is not None and best is not mine and best.rank - mine.rank >= TIE:
+            exchanged = final.without(name).with_attempt(best)
+            if exchanged.score < final.score:
+                final = exchanged
+                name, attempts = best.effect.name, _in_place_of(exchanged, best.effect.name)
+        rivals[name] = attempts
+    return final, {name: rivals[name] for name in final.names if name in rivals}
+
+
+def _in_place_of(final: Stage, name: str) -> tuple[Attempt, ...]:
+    rest = final.without(name)
+    attempts = rest.plain()
+    own = [t for terms in final.accepted for t in terms if t.effect.name == name]
+    if any(t.form is not t.effect.forms[0] for t in own):
+        passing = [a.effect.name for a in attempts if a.log_e > rest.needed]
+        attempts = rest.rich([*passing, name])
+    return tuple(a for a in attempts if a.effect.name == name or a.effect.name not in final.names)
 
 
 def tied(attempts: Sequence[Attempt]) -> tuple[str, ...]:
