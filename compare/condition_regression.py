@@ -173,9 +173,7 @@ def _correlation(a: Array, b: Array) -> float:
     return float(np.corrcoef(a, b)[0, 1])
 
 
-def average_repeats(
-    groups: Sequence[str], numbers: Sequence[tuple[float, float]]
-) -> tuple[list[str], Array, Array]:
+def average_repeats(groups: Sequence[str], numbers: Sequence[tuple[float, float]]) -> tuple[list[str], Array, Array]:
     """Names of the groups in the order in which they come, weighted means of their numbers, and the std of these."""
     names = list(dict.fromkeys(groups))
     value, std = np.empty(len(names)), np.empty(len(names))

@@ -197,7 +197,8 @@ def _drift(group: _Group | None, dof: int, kind: str) -> list[_Sign]:
 def _tie(s: ConditionSlope) -> str:
     """The conditions that it cannot be told from."""
     return "".join(
-        f" (not to be told from {_WORDS.get(name, name)}: they vary together, correlation {r:.2f})" for name, r in s.tied
+        f" (not to be told from {_WORDS.get(name, name)}: they vary together, correlation {r:.2f})"
+        for name, r in s.tied
     )
 
 

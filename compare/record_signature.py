@@ -192,6 +192,8 @@ def std_of_sum(weights: Array, noise: NoiseCovariance, signal: Array) -> float:
     """
     forward = lfilter([1.0], [1.0, -noise.phi], weights)
     backward = lfilter([1.0], [1.0, -noise.phi], weights[::-1])[::-1]
-    of_samples = noise.s**2 * float(weights @ (forward + backward - weights)) + noise.white**2 * float(weights @ weights)
+    of_samples = noise.s**2 * float(weights @ (forward + backward - weights)) + noise.white**2 * float(
+        weights @ weights
+    )
     of_records = (noise.gain * float(weights @ signal)) ** 2 + (noise.offset * float(weights.sum())) ** 2
     return float(np.sqrt(max(of_samples, 0.0) + of_records))
