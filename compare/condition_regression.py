@@ -4,9 +4,9 @@ r"""Regression of a number of every record on the conditions under which the rec
 
 sigma_i is what noise alone gives; tau, the scatter that the line does not explain, is the one at which the weighted square
 residual equals its degrees of freedom (Paule & Mandel 1982, doi 10.6028/jres.087.022), or zero. The slope is judged by
-Student's t, and its standard deviation is widened so that value +- 2 std holds 95 %. Conditions enter the line one after the
-other, that which leaves least scatter first, while they are significant at 5 %. Repeats are averaged first: a line through a
-model that fails does not get surer by repeating the failure.
+Student's t, and its standard deviation is widened so that value +- 2 std holds 95 %. Conditions enter the line one after
+the other, the surest first, while they are significant at 5 %. Repeats are averaged before: a line through a model that
+fails does not get surer by repeating the failure.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def _weighted(z: Array, variance: Array, X: Array) -> tuple[Array, Array, float]
     weighted = X / variance[:, None]
     covariance = np.linalg.pinv(X.T @ weighted)
     beta = covariance @ (weighted.T @ z)
-    return beta, covariance, float(np.sum((z - X @ beta) ** 2 / variance))
+    return beta, np.asarray(covariance, dtype=float), float(np.sum((z - X @ beta) ** 2 / variance))
 
 
 def _scatter(z: Array, std: Array, X: Array, dof: int) -> float:

@@ -151,9 +151,8 @@ def _features(fit: ChannelFit, led: LedPath) -> Array:
     """(n, 7): path, direction, rate, largest path so far, tension, temperature, length; the mean, or 0, where unknown."""
     path, lead = led.path, led.lead
     strain = path.strain / path.largest
-    if len(strain) < 2:
-        motion = np.zeros(len(strain))
-    else:
+    motion = np.zeros(len(strain))
+    if len(strain) > 1:
         motion = np.gradient(strain) if path.time is None else np.gradient(strain, path.time)
     rate = np.zeros(len(strain)) if path.time is None else motion
     grip = fit.experiment.conditions.get("axial tension", path.typical_tension)

@@ -1,11 +1,11 @@
 r"""Where and how a linear model fails: signatures of its residual, as sentences with numbers.
 
 Each is one number of every record (:mod:`compare.record_signature`), averaged over repeats, and then either its mean over
-all conditions of the bench or its slope over one of them (:mod:`compare.condition_regression`). A mean is a sign if noise alone would give it in
-less than 5 % of campaigns, shared among all numbers that were tried (Bonferroni), and if the conditions in which it is clear agree
-on its sign. A slope is one if noise does not explain that the conditions differ, and the slope is significant at 5 % beside the
-scatter about its line. That a number does not change with
-a condition is told only where something else fails, and where it is known well. Signatures explain; they do not decide.
+all conditions of the bench or its slope over one of them (:mod:`compare.condition_regression`). A mean is a sign if noise
+alone would give it in less than 5 % of campaigns, shared among all numbers that were tried (Bonferroni), and if the
+conditions agree on its sign. A slope is one if noise does not explain that the conditions differ, and the slope is
+significant at 5 % beside the scatter about its line. That a number does not change with a condition is told only where
+something else fails, and where it is known well. Signatures explain; they do not decide.
 """
 
 from __future__ import annotations
@@ -155,7 +155,8 @@ def _grouped(found: Sequence[RecordSignature], name: str) -> _Group | None:
     groups, value, std = average_repeats([s.group for s in own], [s.numbers[name] for s in own])
     members = [[s for s in own if s.group == g] for g in groups]
     conditions = {
-        c: np.array([np.mean([s.conditions.get(c, np.nan) for s in member]) for member in members]) for c in _ORDER
+        c: np.array([float(np.mean([s.conditions.get(c, np.nan) for s in member])) for member in members])
+        for c in _ORDER
     }
     return _Group(value, std, conditions)
 

@@ -1,7 +1,7 @@
 r"""What one record shows beside the calibrated linear model: single numbers, each with its standard deviation.
 
-With the reading y of a record, the signal m of the linear model, u = m / max|m| and r = y - m, all numbers but the last are
-coefficients of generalised least squares with the noise covariance of the channel,
+With the reading y of a record, the signal m of the linear model, u = m / max|m| and r = y - m, all numbers but the last
+are coefficients of generalised least squares with the noise covariance of the channel,
 
 .. math::
 
@@ -9,9 +9,9 @@ coefficients of generalised least squares with the noise covariance of the chann
     r &= (b) + c\,u + \dots & \text{beside:}\;
     t;\quad \dot m;\quad \operatorname{sgn}\dot u;\quad u\,[\text{first loading}];\quad T_2(u), T_3(u)
 
-that is a constant, a trend in time, a lag (r = -tau dm/dt to first order), the half width of a loop, the stiffness of first
-loading over later, and the second and third Chebyshev polynomial, which on a sine are the second and third harmonic. On a
-path of one sign T_2 runs over that side. The loss factor of a closed loop is its energy over 2 pi times the stored one,
+that is a constant, a trend in time, a lag (r = -tau dm/dt to first order), the half width of a loop, the stiffness of
+first loading over later, and the second and third Chebyshev polynomial, which on a sine are the second and third harmonic.
+On a path of one sign T_2 runs over that side. The loss factor of a closed loop is its energy over 2 pi times the stored one,
 
 .. math::  \eta = \frac{\oint r\,\mathrm{d}u}{\pi a^2},\qquad a = (\max u - \min u)/2 .
 
@@ -45,8 +45,8 @@ _FEWEST = 12
 class RecordSignature:
     """Numbers (value, std) of one record by name, and the conditions it was taken under.
 
-    `numbers` may hold ``stiffness``, ``offset``, ``trend``, ``lag``, ``direction``, ``history``, ``even``, ``odd``, ``curvature``,
-    ``loop`` and, for the other load, ``cross``. `conditions` holds ``amplitude`` (largest path per length), ``rate``
+    `numbers` may hold ``stiffness``, ``offset``, ``trend``, ``lag``, ``direction``, ``history``, ``even``, ``odd``,
+    ``curvature``, ``loop`` and, for the other load, ``cross``. `conditions` holds ``amplitude`` (largest path per length), ``rate``
     (frequency of loading: mean rate over four amplitudes [1/s]), ``axial tension`` [N], ``temperature`` [K], ``length`` [m].
     """
 
@@ -146,7 +146,7 @@ def _cross_numbers(fit: ChannelFit, led: LedPath, noise: NoiseCovariance) -> dic
     """Of a load beside the path: how it moves with the path, in units of the channel at the largest path."""
     strain = led.path.strain[led.lead :]
     columns = np.column_stack([fit.measured - fit.model, np.ones(len(strain)), strain / np.abs(strain).max()])
-    white = dict(zip(("r", "1", "u"), noise.whiten(columns, fit.model).T, strict=True))
+    white: dict[str, Array] = dict(zip(("r", "1", "u"), noise.whiten(columns, fit.model).T, strict=True))
     found = {"offset": _gls(white, "r", ["1", "u"]), "cross": _gls(white, "r", ["u", "1"])}
     return {k: v for k, v in found.items() if v is not None}
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from made_bench import EI, bent_campaign, compared
+from made_bent_cable import EI, bent_campaign, compared
 
 from compare.gaussian_process_patch import GaussianProcess, patch_error, refit_error
 

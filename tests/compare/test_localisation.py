@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from made_bench import EI, GRID, bent_campaign, compared
+from made_bent_cable import EI, GRID, bent_campaign, compared
 from made_campaign import made_campaign
 
 from compare import NoiseCovariance
