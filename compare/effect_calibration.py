@@ -19,12 +19,13 @@ from compare.calibration import CalibratedValue, Calibration, ParameterValue, bo
 from compare.experiment import Experiment
 from compare.noise_floor import NoiseModel
 from compare.search import Attempt, Stage, polished
-from effects.effect import ActiveEffect, Effect
+from effects.effect import ActiveEffect, Derived, Effect
 from effects.library import find
 from geometry.errors import InputError
 
 Array = NDArray[np.float64]
 _STEP = 1e-3
+LOAD_UNITS = {"tension": "N", "torsion": "N m", "bending": "N m", "shear": "N"}
 
 
 def calibrate_model(model: BenchModel, experiments: Sequence[Experiment], noise: NoiseModel) -> Calibration:
@@ -40,6 +41,8 @@ def calibrate_model(model: BenchModel, experiments: Sequence[Experiment], noise:
     linear = calibrate(model.linear, experiments, noise)
     if not model.added and not model.effects:
         return linear
+    if not experiments:
+        raise InputError("no open bench experiment is in the set calibrate: no effect can be calibrated.")
     blocks = make_blocks(experiments, linear.model, noise)
     if model.effects:
         terms = [[replace(e, strength=()) for e in model.effects if e.kind == block.kind] for block in blocks]
@@ -68,6 +71,9 @@ class _Spread:
     coefficient: Array
     noise_only: Array
     shape: dict[tuple[int, int], float]
+    begin: tuple[int, ...]
+    covariance: Array
+    """Of coefficients, then shapes in the order of `shape`, (P + s, P + s)."""
 
 
 def calibration_of(stage: Stage, linear: Calibration, model: BenchModel) -> Calibration:
@@ -94,7 +100,7 @@ def calibration_of(stage: Stage, linear: Calibration, model: BenchModel) -> Cali
             if block.kind == "tension":
                 reference = replace(reference, typical_tension=reference.typical_tension * scale)
             active.append(replace(term, strength=tuple(float(v) for v in own_x), reference=reference))
-            parameters.update(_named(block, i, term, own_x, own_std, spread, several))
+            parameters.update(_named(block, i, term, own_x, own_std, spread, several, scale * _stiffness(block)))
     fitted = replace(model.linear, ratios=ratios, added=model.added or stage.names, effects=tuple(active))
     return replace(linear, model=fitted, values=values, free=free, parameters=parameters)
 
@@ -127,7 +133,14 @@ def _spread(block: Block, terms: Sequence[ActiveEffect], x: Array) -> _Spread:
     both = np.fmax(by_noise, bootstrap_std(J, r, [block.kind] * len(J)))
     coefficient, noise_only = np.zeros(len(x)), np.zeros(len(x))
     coefficient[free], noise_only[free] = both[: len(free)], by_noise[: len(free)]
-    return _Spread(coefficient, noise_only, {key: float(v) for key, v in zip(shapes, both[len(free) :], strict=True)})
+    known = [*free, *range(len(x), len(x) + len(shapes))]
+    covariance = np.zeros((len(x) + len(shapes),) * 2)
+    inverse = np.linalg.pinv(np.sum([j.T @ j for j in J], axis=0), hermitian=True)
+    wider = np.where(np.isfinite(both) & (by_noise > 0), both / np.fmax(by_noise, 1e-300), 1.0)
+    covariance[np.ix_(known, known)] = inverse * np.outer(wider, wider)
+    of_shape = {key: float(v) for key, v in zip(shapes, both[len(free) :], strict=True)}
+    begin = len(block.base) + np.cumsum([0, *[len(t.form.strength) for t in terms]])
+    return _Spread(coefficient, noise_only, of_shape, tuple(int(b) for b in begin), covariance)
 
 
 def _slopes(
@@ -143,14 +156,16 @@ def _slopes(
 
 
 def _named(
-    block: Block, i: int, term: ActiveEffect, x: Array, std: Array, spread: _Spread, several: bool
+    block: Block, i: int, term: ActiveEffect, x: Array, std: Array, spread: _Spread, several: bool, stiffness: float
 ) -> dict[str, ParameterValue]:
     """Parameters of a term by readable name; the kind and the channel are added where they are needed."""
     where = [w for w in (block.kind if several else "", term.channel or "") if w]
     tail = f" ({', '.join(where)})" if where else ""
     channel_unit = next((r.experiment.record.channels[term.channel].unit for r in block.records
                          if term.channel in r.experiment.record.channels), "1") if term.channel else "1"  # fmt: skip
-    found = {}
+    found = {
+        f"{term.effect.name}: {name}{tail}": value for name, value in _derived(block, i, term, x, spread, stiffness).items()
+    }
     for k, parameter in enumerate(term.form.shape):
         unit = parameter.unit_for(block.kind).replace("channel", channel_unit)
         found[f"{term.effect.name}: {parameter.name}{tail}"] = ParameterValue(
@@ -166,6 +181,35 @@ def _named(
     return found
 
 
+def _stiffness(block: Block) -> float:
+    """Stiffness of the load channel about which the columns were taken, mean over the records."""
+    return float(np.mean([r.stiffness for record in block.records for r in record.readings if r.role == "load"] or [1.0]))
+
+
+def _derived(
+    block: Block, i: int, term: ActiveEffect, x: Array, spread: _Spread, stiffness: float
+) -> dict[str, ParameterValue]:
+    """What the parameters of a term amount to, with the standard deviation carried over to first order."""
+    found = {}
+    at = spread.begin[i]
+    shapes = [n for n, key in enumerate(spread.shape) if key[0] == i]
+    index = [*range(at, at + len(x)), *(len(spread.coefficient) + n for n in shapes)]
+    covariance = spread.covariance[np.ix_(index, index)]
+    for derived in term.form.derived:
+        here = np.array([*x, *term.shape])
+
+        def value(v: Array, derived: Derived = derived) -> float:
+            return derived.value(tuple(v[len(x) :]), v[: len(x)], block.paths[0])
+
+        steps = 1e-5 * np.maximum(np.abs(here), 1e-6)
+        slope = np.array([(value(here + np.eye(len(here))[k] * h) - value(here)) / h for k, h in enumerate(steps)])
+        factor = stiffness if derived.unit == "load" else 1.0
+        unit = LOAD_UNITS.get(block.kind, "N") if derived.unit == "load" else derived.unit
+        std = float(np.sqrt(max(slope @ covariance @ slope, 0.0)))
+        found[derived.name] = ParameterValue(factor * value(here), factor * std, unit, derived.meaning)
+    return found
+
+
 def parameters_of(attempt: Attempt, stage: Stage) -> dict[str, ParameterValue]:
     """Parameters of an effect that was only tried, beside the accepted terms of a stage."""
     found: dict[str, ParameterValue] = {}
@@ -177,6 +221,9 @@ def parameters_of(attempt: Attempt, stage: Stage) -> dict[str, ParameterValue]:
         k = len(trial.fit.term.form.strength)
         factor = 1.0 if trial.fit.term.form.stage == "bias" else _scale(block, trial.fit.x)
         std = spread.coefficient[len(trial.fit.x) - k :] / factor
-        named = _named(block, len(terms) - 1, trial.fit.term, trial.fit.strength / factor, std, spread, several)
+        stiffness = factor * _stiffness(block)
+        named = _named(
+            block, len(terms) - 1, trial.fit.term, trial.fit.strength / factor, std, spread, several, stiffness
+        )
         found.update({name.split(": ", 1)[1]: value for name, value in named.items()})
     return found

@@ -23,13 +23,14 @@ BASELINES = {"Gaussian process patch": "GP patch", "refit of the old model": "re
 _MOST_NAMED = 3
 
 
-def uncertain(value: float, std: float, unit: str = "") -> str:
-    """A value with its standard deviation, rounded to what is known.
+def uncertain(value: float, std: float | None, unit: str = "") -> str:
+    """A value with its standard deviation, rounded to what is known; None is a deviation that is not finite.
 
     >>> uncertain(0.5132, 0.0312, "N m"), uncertain(48213.0, 130.0, "N"), uncertain(0.5, float("inf"), "1")
     ('0.513 ± 0.031 N m', '48210 ± 130 N', '0.5 (not determined)')
     """
     unit = "" if unit in ("1", "-") else unit
+    std = math.inf if std is None else std
     if not math.isfinite(value):
         return "not determined"
     if not math.isfinite(std) or std <= 0:

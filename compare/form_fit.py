@@ -20,6 +20,8 @@ from effects.effect import ActiveEffect, Effect, Form
 
 Array = NDArray[np.float64]
 _LARGEST_GRID = 90
+_ON_A_LINE = 9
+_AROUND = (-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0)  # standard errors
 _MATTERS = 1.0  # twice the log likelihood
 
 
@@ -41,7 +43,8 @@ class Site:
 class FormFit:
     """A form at its best shape: the term, its Gram matrices, all coefficients (P,) and the left square residual.
 
-    `at_edge` names the shapes that would rather leave the range in which they are searched.
+    `at_edge` names the shapes that would rather leave the range in which they are searched; `near` holds the Gram matrices
+    of the shapes around the best one.
     """
 
     term: ActiveEffect
@@ -49,6 +52,7 @@ class FormFit:
     x: Array
     square: float
     at_edge: tuple[str, ...] = ()
+    near: Grams | None = field(default=None, repr=False)
 
     @property
     def strength(self) -> Array:
@@ -98,7 +102,34 @@ def refine(scan: Scan, term: ActiveEffect, grid: Grams, shapes: Sequence[tuple[f
         return fitted(scan.candidate(here), here)
     limits = _limits(term.form, shapes)
     here = _search(scan, here, costs[best], _neighbours(shapes, best, limits), limits)
-    return replace(fitted(scan.candidate(here), here), at_edge=_at_edge(scan, here, limits))
+    fit = fitted(scan.candidate(here), here)
+    return replace(fit, near=_near(scan, fit, limits), at_edge=_at_edge(scan, here, limits))
+
+
+def _near(scan: Scan, fit: FormFit, limits: Sequence[tuple[float, float]]) -> Grams:
+    """Gram matrices at the best shape and around it, from half to four standard errors to either side of every shape.
+
+    Folds that leave data out choose among them, so that a shape is fitted again as a strength is.
+    """
+    here = float(total_cost(fit.grams))
+    found = [fit.grams]
+    for k, (low, high) in enumerate(limits):
+        value = fit.term.shape[k]
+
+        def moved(to: float, k: int = k, low: float = low, high: float = high) -> ActiveEffect:
+            shape = fit.term.shape
+            return replace(fit.term, shape=(*shape[:k], float(np.clip(to, low, high)), *shape[k + 1 :]))
+
+        def cost(to: float) -> float:
+            term = moved(to)
+            return float(total_cost(scan.of_matrix(term, scan.cost_matrix(term))))
+
+        step = 0.02 * (abs(value) if value != 0 else high - low)
+        rise = max(cost(value + step), cost(value - step)) - here
+        error = step / np.sqrt(max(rise, 1e-6)) if rise > 0 else step
+        error = float(np.clip(error, 1e-6 * max(abs(value), 1e-300), 0.5 * max(abs(value), high - low)))
+        found += [scan.candidate(moved(value + m * error)) for m in _AROUND]
+    return replace(fit.grams, S=np.stack([g.S for g in found]), X=np.stack([g.X for g in found]))
 
 
 def _limits(form: Form, shapes: Sequence[tuple[float, ...]]) -> list[tuple[float, float]]:
@@ -165,6 +196,7 @@ def _search(
     ends = np.array(
         [[np.log(v) if log else v for v in pair] for pair, log in zip(around, logs, strict=True)], dtype=float
     )
+    start, best = _along_each(cost_of, start, ends, cost)
     if len(parameters) == 1:
         low, high = ends[0]
         if high <= low:
@@ -182,7 +214,7 @@ def _search(
             method="Nelder-Mead",
             options={"initial_simplex": simplex, "maxfev": 35 * len(parameters), "xatol": 1e-3, "fatol": 1e-2},
         )
-        u, value = found.x, float(found.fun)
+        u, value = (found.x, float(found.fun)) if found.fun < best else (start, best)
     return replace(term, shape=shape_of(u)) if value < cost else term
 
 
@@ -191,6 +223,21 @@ def _bounded(cost_of: Callable[[Array], float], low: float, high: float) -> tupl
     options = {"xatol": 1e-3 * (high - low)}
     found = minimize_scalar(lambda v: cost_of(np.array([v])), bounds=(low, high), method="bounded", options=options)
     return np.array([found.x]), float(found.fun)
+
+
+def _along_each(cost_of: Callable[[Array], float], start: Array, ends: Array, cost: float) -> tuple[Array, float]:
+    """The best point on a line through the start along every axis in turn, for costs with jumps in the shapes."""
+    here, best = start.copy(), cost
+    if len(here) < 2:
+        return here, best
+    for k in range(len(here)):
+        for value in np.linspace(ends[k, 0], ends[k, 1], _ON_A_LINE + 2)[1:-1]:
+            trial = here.copy()
+            trial[k] = value
+            found = cost_of(trial)
+            if found < best:
+                here, best = trial, found
+    return here, best
 
 
 def sites(block: Block, index: int, library: Sequence[Effect]) -> list[Site]:

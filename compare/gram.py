@@ -22,6 +22,7 @@ from compare.bounded_least_squares import solve_bounded
 from effects.effect import ActiveEffect
 
 Array = NDArray[np.float64]
+_LARGEST_SIZE = 1e12  # of a column over the target, squared: where nothing was measured but zeros
 _PRIOR_STRENGTH = 0.3  # prior standard deviation of an effect: its rms over that of the linear load
 
 
@@ -141,7 +142,7 @@ class Grams:
         mean = np.zeros(self.P)
         mean[: self.base] = 1.0
         diagonal = np.diagonal(self.S, axis1=-2, axis2=-1).sum(axis=-2)
-        size = diagonal[..., :-1] / np.maximum(diagonal[..., -1:], 1e-300)
+        size = np.clip(diagonal[..., :-1] / np.maximum(diagonal[..., -1:], 1e-300), 0.0, _LARGEST_SIZE)
         precision = np.ones_like(size)
         precision[..., self.base :] = np.maximum(size[..., self.base :], 1e-12) / _PRIOR_STRENGTH**2
         return mean, precision

@@ -25,7 +25,7 @@ from compare.noise_likelihood import Contrast, fit_noise
 from compare.repeats import Repeats, find_repeats
 
 _NORMAL_MEDIAN = 0.6744897501960817  # median of |z| for a standard normal z
-_RESOLUTION = 1e-9  # of the rms of a channel: below it a noise of zero is not believed
+_RESOLUTION = 1e-6  # of the rms of a channel: below it a noise of zero is not believed, and squares lose their digits
 
 
 @dataclass(frozen=True)
@@ -81,5 +81,5 @@ def _noise_of(
     )
     if s <= _RESOLUTION * size:
         s = _RESOLUTION * size
-        note += " The records are so smooth that they show no noise; the floor is one part in 1e9 of the signal."
+        note += " The records are so smooth that they show no noise; the floor is one part in 1e6 of the signal."
     return NoiseCovariance(s=s, assumed=True, source="second differences"), [note]

@@ -68,10 +68,12 @@ def record_signatures(comparison: Comparison, set_name: str = "calibrate") -> li
     found = []
     for fit in fits:
         led, noise = paths[fit.experiment.id], comparison.noise.of(fit.experiment, fit.channel)
-        if not np.abs(led.path.strain[led.lead :]).max() > 0:
+        if not np.ptp(led.path.strain[led.lead :]) > 0:
             continue
         kind = KINDS[fit.experiment.kind]
         main = fit.channel == kind.load or fit.channel in kind.paths
+        if main and not fit.model.any():
+            continue
         numbers = _main_numbers(fit, led, noise) if main else _cross_numbers(fit, led, noise)
         found.append(RecordSignature(fit, numbers, _conditions(fit, led)))
     return found

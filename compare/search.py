@@ -120,7 +120,7 @@ class Stage:
         grid = scan.grid(site.term(form, shapes[0]), shapes)
         log_e = log_e_value(grid, self.null(site.block), splits(len(block.groups)))
         fit = refine(scan, site.term(form, shapes[0]), grid, shapes)
-        near = left_out(fit.grams)
+        near = left_out(fit.near or fit.grams)
         gain = 0.5 * (self.left[site.block].square - near.square)
         return Trial(site, fit, log_e, gain, near.shared)
 

@@ -122,7 +122,13 @@ def check(
     blocks = make_blocks(bench, linear.model, noise)
     effects = tuple(library) if library is not None else whole_library()
     separation, untestable, smallest, _ = testability(blocks, effects)
-    return Check(campaign, noise, noise.notes, separation, untestable, smallest, linear.notes)
+    notes = linear.notes
+    sealed = [e.id for e in campaign.experiments if not e.is_open]
+    if sealed:
+        notes = (*notes, f"sealed, not read: {', '.join(sealed)}.")
+    if not bench:
+        notes = (*notes, "no open bench experiment is in the set calibrate: these data can show nothing.")
+    return Check(campaign, noise, noise.notes, separation, untestable, smallest, notes)
 
 
 def testability(

@@ -26,7 +26,7 @@ from compare.bench_design import Block
 from compare.findings import Verdict
 from compare.search import Attempt, Progress, Stage, pair_gains
 from compare.shared_misfit import SharedMisfit
-from effects.effect import Effect
+from effects.effect import ActiveEffect, Effect
 
 ADEQUATE_Z = 3.0
 CLEAR_Z = 5.0
@@ -38,6 +38,7 @@ _WORTH_FORM = 5.0
 _SMALLEST_SECOND = 0.004  # of the gain of the first effect
 _REST_LEFT = 0.4  # part of the misfit that a further effect may leave
 _TRIED_TOGETHER = 3
+_PROPORTIONAL = 1e-6
 _NEGLIGIBLE = 0.02  # of the first misfit
 
 
@@ -144,8 +145,7 @@ def _first(stage: Stage) -> Attempt | None:
         return passing[0] if passing else None
     best = passing[0]
     if stage.with_attempt(best).misfit().z > ADEQUATE_Z:
-        names = [a.effect.name for a in plain if a.gain > max(0.1 * best.gain, stage.needed)]
-        rich = [a for a in stage.rich(names) if a.log_e > stage.needed]
+        rich = [a for a in stage.rich([a.effect.name for a in plain]) if a.log_e > stage.needed]
         if rich and rich[0].gain > best.gain + _WORTH_FORM:
             best = rich[0]
     return best
@@ -233,10 +233,38 @@ def _in_place_of(final: Stage, name: str) -> tuple[Attempt, ...]:
     rest = final.without(name)
     attempts = rest.plain()
     own = [t for terms in final.accepted for t in terms if t.effect.name == name]
+    passing = [a.effect.name for a in attempts if a.log_e > rest.needed]
     if any(t.form is not t.effect.forms[0] for t in own):
-        passing = [a.effect.name for a in attempts if a.log_e > rest.needed]
         attempts = rest.rich([*passing, name])
+    elif all(acts_per_record(rest.blocks, t) for t in own):
+        # only the conditions of whole records tell: where they vary together, no form of their law may decide
+        same = [
+            a.effect.name
+            for a in attempts
+            if a.share > FAMILY and a.log_e > rest.needed
+            and all(acts_per_record(rest.blocks, t.fit.term) for t in a.trials)
+        ]
+        if len(same) > 1:
+            best = {a.effect.name: a for a in (*attempts, *reversed(rest.rich(same)))}
+            attempts = sorted(best.values(), key=lambda a: -a.rank)
     return tuple(a for a in attempts if a.effect.name == name or a.effect.name not in final.names)
+
+
+def acts_per_record(blocks: Sequence[Block], term: ActiveEffect) -> bool:
+    """Whether an effect changes the stiffness of whole records and nothing else, as temperature or length do."""
+    block = next(b for b in blocks if b.kind == term.kind)
+    for record in block.records:
+        if term.form.stage == "section":
+            change = record.columns((term,), only=0)[0].sum(axis=1)
+        elif term.form.stage == "fixture":
+            change = record.columns((term,))[0].sum(axis=1)
+        else:
+            return False
+        strain = record.led.path.strain[record.led.lead :]
+        along = strain * (change @ strain) / max(float(strain @ strain), 1e-300)
+        if float(np.sum((change - along) ** 2)) > _PROPORTIONAL * max(float(change @ change), 1e-300):
+            return False
+    return True
 
 
 def tied(attempts: Sequence[Attempt]) -> tuple[str, ...]:

@@ -160,6 +160,19 @@ class Parameter:
         return unit
 
 
+@dataclass(frozen=True)
+class Derived:
+    """A number that follows from the parameters of a form and says more than they do, such as a slip limit.
+
+    `value(shape, strength, reference)` gives it; for the unit ``load`` in strain, to be multiplied by the linear stiffness.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    value: Callable[[Sequence[float], Array, BenchPath], float] = field(repr=False)
+
+
 Respond = Callable[..., Array]
 Advance = Callable[..., tuple[Array, Array]]
 
@@ -188,6 +201,8 @@ class Form:
         from zeros (the first sample with a `dt` of 0) it gives the columns of `respond` sample by sample.
     memory : int
         State variables per material point.
+    derived : tuple of Derived
+        What reports name first.
     """
 
     name: str
@@ -197,6 +212,7 @@ class Form:
     strength: tuple[Parameter, ...] = ()
     advance: Advance | None = field(default=None, repr=False)
     memory: int = 0
+    derived: tuple[Derived, ...] = ()
 
 
 UNKNOWN = BenchPath("tension", np.zeros(0))

@@ -10,7 +10,7 @@ Beyond the strain epsilon_0 at which the grip gives way it slides by lambda per 
 ever before: it bites as it slides. Solved exactly, since on fresh ground epsilon grows by 1/(1 + lambda/L) of the path.
 A grip that slides at one load without biting is not a case of its own: its loop is that of ideal plasticity.
 
-Richer: one sudden jump; a slip that grows fast at first and comes to an end, s (1 - exp(-(M - epsilon_0)/w)); grips that
+Richer: one sudden jump, or one to either side; a slip that grows fast at first and comes to an end, s (1 - exp(-(M - epsilon_0)/w)); grips that
 bite to either side by themselves; grips that slide anew in every cycle; and creep, a speed v per strain above
 epsilon_0. Where no specimen length is recorded L is 1 m. Source: a Coulomb slider with hardening in series with a spring,
 e.g. Jenkins' element, Ing.-Arch. 3 (1932).
@@ -57,6 +57,19 @@ def _sudden_kernel(x: Array, jump: float, limit: float) -> Array:
         if held and abs(x[i]) > limit:
             slip, held = math.copysign(jump, x[i]), False
         out[i] = x[i] - slip
+    return out
+
+
+@kernel
+def _sudden_to_either_side_kernel(x: Array, jump: float, limit: float) -> Array:
+    out = np.empty_like(x)
+    up, down = 0.0, 0.0
+    for i in range(len(x)):
+        if x[i] > limit:
+            up = jump
+        elif x[i] < -limit:
+            down = jump
+        out[i] = x[i] - up + down
     return out
 
 
@@ -121,6 +134,10 @@ def _biting(memory: int) -> Callable[[BenchPath, float, float], Array]:
 
 def _sudden(path: BenchPath, slip: float, limit: float) -> Array:
     return _sudden_kernel(_strain(path), slip / _length(path), float(limit))
+
+
+def _sudden_to_either_side(path: BenchPath, slip: float, limit: float) -> Array:
+    return _sudden_to_either_side_kernel(_strain(path), slip / _length(path), float(limit))
 
 
 def _ending(path: BenchPath, slip: float, limit: float, width: float) -> Array:
@@ -201,6 +218,7 @@ EFFECT = Effect(
     forms=(
         Form("bites as it slides", "fixture", _biting(0), shape=(_slide(of_length(0.01, 10.0, 8)), _limit(8))),
         Form("one sudden slip", "fixture", _sudden, shape=(_way(8), _limit(16))),
+        Form("one sudden slip to either side", "fixture", _sudden_to_either_side, shape=(_way(8), _limit(16))),
         Form("comes to an end", "fixture", _ending, shape=(_way(6), _limit(5), _WIDTH)),
         Form("bites to either side", "fixture", _biting(1), shape=(_slide(of_length(0.01, 10.0, 8)), _limit(8))),
         Form("slides in every cycle", "fixture", _biting(2), shape=(_slide(of_length(0.01, 10.0, 8)), _limit(8))),

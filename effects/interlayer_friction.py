@@ -15,7 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from effects.effect import UNKNOWN, BenchPath, Effect, Form, Parameter, of_strain, of_values
+from effects.effect import UNKNOWN, BenchPath, Derived, Effect, Form, Parameter, of_strain, of_values
 from effects.loading_path import grip_ratio, turns_back
 from effects.slip_element import slip_record, slip_step
 
@@ -116,6 +116,14 @@ ONE_ELEMENT = Form(
     strength=(_strength("stick stiffness", "stiffness that is lost when the layers slip, over the linear one"),),
     advance=_advance_one,
     memory=1,
+    derived=(
+        Derived(
+            "slip limit",
+            "load",
+            "load of the friction when all layers slip, at the typical tension",
+            lambda shape, a, _reference: float(a[0] * shape[0]),
+        ),
+    ),
 )
 DISTRIBUTED = Form(
     "distributed slip, sixteen elements",
@@ -128,6 +136,20 @@ DISTRIBUTED = Form(
     ),
     advance=_advance_distributed,
     memory=len(SLIP_STRAINS),
+    derived=(
+        Derived(
+            "slip limit",
+            "load",
+            "load of the friction when all layers slip, at the typical tension",
+            lambda _shape, a, reference: float(a @ SLIP_STRAINS * reference.largest),
+        ),
+        Derived(
+            "stick stiffness",
+            "1",
+            "stiffness that is lost when all layers slip, over the linear one",
+            lambda _shape, a, _reference: float(a.sum()),
+        ),
+    ),
 )
 
 EFFECT = Effect(

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from effects.effect import UNKNOWN, BenchPath, Effect, Form, Parameter, of_strain, of_values
+from effects.effect import UNKNOWN, BenchPath, Derived, Effect, Form, Parameter, of_strain, of_values
 from effects.slip_element import hardening_record, hardening_step, slip_record, slip_step
 
 Array = NDArray[np.float64]
@@ -119,6 +119,12 @@ KINEMATIC = Form(
     strength=(_strength("yielding stiffness", "stiffness that is lost when the metal yields, over the linear one"),),
     advance=_advance_one,
     memory=1,
+    derived=(
+        Derived(
+            "yield limit", "load", "load that the yielding metal carries at most",
+            lambda shape, a, _reference: float(a[0] * shape[0]),
+        ),
+    ),
 )
 MANY_ELEMENTS = Form(
     "gradual yield, sixteen elements",
@@ -130,6 +136,16 @@ MANY_ELEMENTS = Form(
     ),
     advance=_advance_many,
     memory=len(YIELD_STRAINS),
+    derived=(
+        Derived(
+            "yield limit", "load", "load that the yielding metal carries at most",
+            lambda _shape, a, reference: float(a @ YIELD_STRAINS * reference.largest),
+        ),
+        Derived(
+            "yielding stiffness", "1", "stiffness that is lost when all metal yields, over the linear one",
+            lambda _shape, a, _reference: float(a.sum()),
+        ),
+    ),
 )
 ISOTROPIC = Form(
     "isotropic hardening",
