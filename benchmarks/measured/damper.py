@@ -41,7 +41,7 @@ def write(data: Path, folder: Path, shuffle: int | None = None) -> Path:
     folder : Path
         Where the campaign goes.
     shuffle : int, optional
-        Seed of the decoy: the residual of the straight line is shuffled, so that nothing is left to be found.
+        Seed of the decoy: the residual of the straight line, without its mean, is shuffled, so that nothing is left.
     """
     loop = read_table(data / NAME / "loop.csv", ("displacement [mm]", "force [kN]"))
     x, force = loop.T
@@ -49,6 +49,7 @@ def write(data: Path, folder: Path, shuffle: int | None = None) -> Path:
     if shuffle is not None:
         slope = float(x @ force / (x @ x))
         residual = np.random.default_rng(shuffle).permutation(force - slope * x)
+        residual -= residual.mean()
         force, noise = slope * x + residual, float(np.sqrt(np.mean(residual**2)))
     ends = [0, *cycle_ends(x), len(x)]
     rows, tables = [], {}

@@ -142,10 +142,10 @@ def drive_block(motion: dict[str, Array], base: Array, noise_from: dict[str, Arr
 
 
 def shuffled(motion: dict[str, Array], base: Array, seed: int) -> dict[str, Array]:
-    """The decoy: the residual of M a + F_v v in random order, so that nothing is left to be found."""
+    """The decoy: the residual of M a + F_v v in random order and without its mean, so that nothing is left to be found."""
     model = np.column_stack([motion["acceleration"], motion["velocity"]]) @ base
     residual = np.random.default_rng(seed).permutation(motion["force"] - model)
-    return {**motion, "force": model + residual}
+    return {**motion, "force": model + residual - residual.mean()}
 
 
 def _effect(name: str, title: str, respond: object, unit: str, low: float = -np.inf, *shape: Parameter) -> Effect:
@@ -154,7 +154,9 @@ def _effect(name: str, title: str, respond: object, unit: str, low: float = -np.
     return Effect(name, "physics", title, "see the file", "see the file", "a motion", "", (KIND,), (form,))
 
 
-_SPEED = Parameter("vs", "m/s", "speed over which it falls", 1e-4, 0.02, starts=of_values(*np.geomspace(5e-4, 0.02, 10)))
+_SPEED = Parameter(
+    "vs", "m/s", "speed over which it falls", 1e-4, 0.02, starts=of_values(*np.geomspace(5e-4, 0.02, 10))
+)
 LIBRARY = (
     _effect("coulomb-friction", "friction of constant size", lambda p: p.sign[:, None], "N", 0.0),
     _effect("offset", "constant force", lambda p: np.ones((len(p.sign), 1)), "N"),
@@ -166,7 +168,9 @@ LIBRARY = (
         0.0,
         _SPEED,
     ),
-    _effect("quadratic-drag", "drag with the square of speed", lambda p: (p.strain * np.abs(p.strain))[:, None], "N s^2/m^2"),
+    _effect(
+        "quadratic-drag", "drag with the square of speed", lambda p: (p.strain * np.abs(p.strain))[:, None], "N s^2/m^2"
+    ),
     _effect("spring", "force with the position", lambda p: p.position[:, None], "N/m"),
     _effect("lag", "force that comes late, to first order", lambda p: p.jerk[:, None], "kg s"),
 )

@@ -106,7 +106,9 @@ def _strength(name: str) -> Parameter:
     return Parameter(name, "1", "share of mu", low=-np.inf, plausible=(-np.inf, np.inf))
 
 
-JM = Parameter("Jm", "1", "I1 - 3 at which the chains are stretched out", 1.0, 1000.0, starts=of_values(*np.geomspace(30, 300, 14)))
+JM = Parameter(
+    "Jm", "1", "I1 - 3 at which the chains are stretched out", 1.0, 1000.0, starts=of_values(*np.geomspace(30, 300, 14))
+)
 GENT = Form("Gent", "fixture", _locked, shape=(JM,))
 YEOH = Form("Yeoh", "section", _powers, strength=(_strength("linear in I1"), _strength("square in I1")))
 MOONEY = Form(

@@ -63,7 +63,7 @@ def add_record(names: tuple[str, ...], before: Comparison, after: Comparison) ->
 def show_addition(record: dict[str, Any]) -> None:
     """Print the errors before and after, and the parameters."""
     sheet(record["campaign"], [("added", ", ".join(record["effects"]))])
-    rows = [(n, *(f"{e[k]:.3g}" for k in ("before", "after", "floor"))) for n in SETS if (e := record["error"][n])]
+    rows = [(n, *(_short(e[k]) for k in ("before", "after", "floor"))) for n in SETS if (e := record["error"][n])]
     table("Error over the noise floor", ("set", "before", "after", "floor"), rows, right=(1, 2, 3))
     stiffness = record["calibrated"]
     found = [
@@ -76,3 +76,7 @@ def show_addition(record: dict[str, Any]) -> None:
     ]
     table("Parameters of the effects", ("parameter", "value", "meaning"), values, right=(1,))
     sheet("Notes", [("-", note) for note in record["notes"]])
+
+
+def _short(value: float | None) -> str:
+    return "-" if value is None else f"{value:.3g}"
