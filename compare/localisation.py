@@ -115,7 +115,7 @@ def marks(comparison: Comparison, campaign: Campaign) -> tuple[Mark, ...]:
     Returns
     -------
     tuple of Mark
-        What chance does not explain, surest first, then what clearly does not change although something fails; empty
+        What noise does not explain, least likely by noise first, then what clearly does not change although something fails; empty
         where nothing fails.
     """
     ids = {e.id for e in campaign.of_set("calibrate")}
@@ -130,7 +130,7 @@ def marks(comparison: Comparison, campaign: Campaign) -> tuple[Mark, ...]:
     sure = [s for s in signs if not s.told and s.chance < _CHANCE / max(tried, 1)]
     if not sure:
         return ()
-    sure.sort(key=lambda s: -abs(s.mark.value) / max(s.mark.std, 1e-300))
+    sure.sort(key=lambda s: s.chance)
     return tuple(s.mark for s in [*sure, *(s for s in signs if s.told)])
 
 
