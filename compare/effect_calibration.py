@@ -136,7 +136,8 @@ def _spread(block: Block, terms: Sequence[ActiveEffect], x: Array) -> _Spread:
     known = [*free, *range(len(x), len(x) + len(shapes))]
     covariance = np.zeros((len(x) + len(shapes),) * 2)
     inverse = np.linalg.pinv(np.sum([j.T @ j for j in J], axis=0), hermitian=True)
-    wider = np.where(np.isfinite(both) & (by_noise > 0), both / np.fmax(by_noise, 1e-300), 1.0)
+    sure = np.isfinite(both) & (by_noise > 0)
+    wider = np.divide(both, by_noise, out=np.ones(len(both)), where=sure)
     covariance[np.ix_(known, known)] = inverse * np.outer(wider, wider)
     of_shape = {key: float(v) for key, v in zip(shapes, both[len(free) :], strict=True)}
     begin = len(block.base) + np.cumsum([0, *[len(t.form.strength) for t in terms]])

@@ -8,6 +8,7 @@ from scipy.optimize import nnls
 
 from effects.effect import BenchPath
 from effects.interlayer_friction import DISTRIBUTED, EFFECT, ONE_ELEMENT, SLIP_STRAINS
+from effects.plasticity import EFFECT as PLASTICITY
 
 
 def loops(tension: float | np.ndarray | None, amplitude: float = 1.0) -> BenchPath:
@@ -77,9 +78,11 @@ def test_covers_progressive_slip_of_two_layers():
     assert min(left(ONE_ELEMENT, (x, 0.7)) for x in np.geomspace(0.05, 1.0, 20)) > 0.04
 
 
-def test_testable_only_in_loops():
-    """A path that only grows does not show it; one that comes back does."""
+def test_testable_wherever_its_twin_is():
+    """On a path that only grows it softens as plasticity does: were it left out there, its twin would be named alone."""
     path = loops(2000.0)
     up = replace(path, strain=np.linspace(0.0, 1.0, 301))
-    assert "turns back" in (EFFECT.why_untestable([up]) or "")
-    assert EFFECT.why_untestable([up, path]) is None
+    still = replace(path, strain=np.full(301, 0.5))
+    for paths in ([up], [up, path], [still]):
+        assert (EFFECT.why_untestable(paths) is None) == (PLASTICITY.why_untestable(paths) is None)
+    assert EFFECT.why_untestable([up]) is None and "stands still" in (EFFECT.why_untestable([still]) or "")
