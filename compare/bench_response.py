@@ -7,7 +7,8 @@ Where the load F was prescribed the path is found from the whole history at once
 
 .. math::  \varepsilon \leftarrow \varepsilon + \omega\,\frac{F - \text{load}(\varepsilon)}{K} ,
 
-which converges because every law is causal and stiffens by less than 1/omega; omega is halved whenever the residual grows.
+which converges because every law is causal and stiffens by less than 1/omega; omega is halved whenever the residual
+grows, or goes round without coming nearer.
 Without effects this is the linear model of :mod:`compare.bench_model`, to the last digit.
 """
 
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 _MOST_ROUNDS = 400
 _AT_REST = 1e-9
+_NO_NEARER = 8
 
 
 def respond(model: BenchModel, experiment: Experiment, before: Sequence[Experiment] = ()) -> dict[str, Array]:
@@ -121,21 +123,27 @@ def _carrying(path: BenchPath, K: float, active: Sequence[ActiveEffect], name: s
     wanted = path.strain
     size = max(float(np.abs(wanted).max()), 1e-300)
     strain, omega, last = wanted.copy(), 1.0, np.inf
+    best, nearest, since = strain, np.inf, 0
     for _ in range(_MOST_ROUNDS):
         residual = wanted - _load_strain(path.with_strain(strain), active)
         error = float(np.abs(residual).max())
         if error <= _AT_REST * size:
             return strain
+        since += 1
+        if error < nearest:
+            best, nearest, since = strain, error, 0
         if error > 1.5 * last:
             omega /= 2
         last = error
         strain = strain + omega * residual
-    if last > 1e-4 * size:
+        if since >= _NO_NEARER:  # round and round the solution: smaller steps from where it was nearest
+            strain, omega, last, since = best, omega / 2, np.inf, 0
+    if nearest > 1e-4 * size:
         raise ConvergenceError(
-            f"experiment {name}: no path was found that carries the prescribed load; a residual of {last / size:.1%} is "
+            f"experiment {name}: no path was found that carries the prescribed load; a residual of {nearest / size:.1%} is "
             "left. A law that softens or slips without bound cannot be driven by its load."
         )
-    return strain
+    return best
 
 
 def _sensed(y: Array, time: Array | None, led: LedPath, active: Sequence[ActiveEffect], channel: str) -> Array:

@@ -119,10 +119,10 @@ def test_left_out_shape_is_that_of_the_others(block):
     scan = Scan(block, ())
     grid = scan.grid(term, shapes)
     one_by_one = [scan.candidate(replace(term, shape=s)) for s in shapes]
-    mean, precision = grid.prior()
+    mean, _ = grid.prior()
     for g in range(len(block.groups)):
         costs = []
-        for k, grams in enumerate(one_by_one):
+        for grams in one_by_one:
             others = grams.S.sum(axis=0) - grams.S[g]
             x = grams.fit(others)
             costs.append(energy(others, x) + np.sum(grams.prior()[1] * (x - mean) ** 2))
