@@ -78,9 +78,9 @@ mass_per_length = "4.05 kg/m"
 
 README = """# Example: something is missing here
 
-**Synthetic.** Bending tests of a cable under three axial tensions, ten conditions, each done twice on newly mounted specimens: six to
-calibrate, two to validate, two sealed (one with a larger curvature, one with a higher tension than all the others). Nominal stiffness: the cell
-of `mcpt-1.9-3.3-3x35` with everything bonded.
+**Synthetic.** Bending tests of a cable under axial tension, ten conditions, each done twice on newly mounted specimens:
+six to calibrate, two to validate, two sealed (one with a larger curvature, one with a higher tension than all the others).
+Nominal stiffness: the cell of `mcpt-1.9-3.3-3x35` with everything bonded.
 
 The law behind the moments is richer than the forms in the library of effects. It stands in [../truth.md](../truth.md), outside this folder:
 `helicable explain` reads this folder only, and of the sealed tables it takes the SHA-256 until it is told to open them.
@@ -91,7 +91,9 @@ Made by `python -m benchmarks.hidden_effect_campaign`.
 
 def truth_text() -> str:
     """What is true of the campaign, from the very numbers that made it."""
-    rows = "\n".join(f"| {one.name} | {one.stick:g} | {one.first:g} to {one.last:g} | {one.elements} |" for one in LAYERS)
+    rows = "\n".join(
+        f"| {one.name} | {one.stick:g} | {one.first:g} to {one.last:g} | {one.elements} |" for one in LAYERS
+    )
     return f"""# Truth of the synthetic campaigns
 
 Nothing in helicable reads this page.
@@ -104,8 +106,10 @@ Missing in the linear model: **interlayer friction**, and nothing else. M = EI k
 |---|---|---|---|
 {rows}
 
-The slip curvature grows with the axial tension N as {BASE:g} + {1 - BASE:g} (N / {TENSION:g} N)^{POWER:g}: a part is the grip of the sheath.
-Noise: autoregressive (0.7), {100 * NOISE.size:g} % of the rms of EI kappa; per record a gain of {100 * NOISE.gain:g} % and an offset of {100 * NOISE.offset:g} % (standard deviations).
+The slip curvature grows with the axial tension N as {BASE:g} + {1 - BASE:g} (N / {TENSION:g} N)^{POWER:g}: a part is the grip
+of the sheath. Noise: autoregressive (0.7), {100 * NOISE.size:g} % of the rms of EI kappa; per record a gain of
+{100 * NOISE.gain:g} % and an offset of {100 * NOISE.offset:g} % (standard deviations).
+
 No effect of rate, temperature, rig or sensor.
 
 ## example-tension
