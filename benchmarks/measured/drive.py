@@ -23,7 +23,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import butter, filtfilt
+from scipy.signal import butter, sosfiltfilt
 
 from compare.bench_design import BenchRecord, Block, Reading, Whitener, repeat_groups
 from compare.bench_path import LedPath
@@ -31,6 +31,7 @@ from compare.campaign import Campaign
 from compare.experiment import Channel, Experiment, Record
 from compare.noise_floor import measure_noise
 from effects.effect import ActiveEffect, BenchPath, Effect, Form, Parameter, of_values
+from geometry.errors import SpecError
 
 Array = NDArray[np.float64]
 NAME = "emps-drive"
@@ -67,14 +68,16 @@ class DriveRecord(BenchRecord):
 
 def read_motion(path: Path) -> dict[str, Array]:
     """Time, position, velocity, acceleration, jerk, sign of the velocity and motor force, low-passed, at 50 Hz."""
+    if not path.is_file():
+        raise SpecError(f"{path}: there is no such file; give the folder that holds the data sets.")
     with np.load(path) as file:
         time, position = file["time"], file["position"]
         force = file["force_per_volt"] * file["voltage"]
     step = float(time[1] - time[0])
-    b, a = butter(4, 2 * _CUT_OFF * step)
+    sections = butter(4, 2 * _CUT_OFF * step, output="sos")
 
     def smooth(values: Array) -> Array:
-        return np.asarray(filtfilt(b, a, values))
+        return np.asarray(sosfiltfilt(sections, values))
 
     q = smooth(position)
     v = np.gradient(q, step)
@@ -94,7 +97,7 @@ def read_motion(path: Path) -> dict[str, Array]:
 def inertia_and_viscosity(motion: dict[str, Array]) -> Array:
     """M [kg] and F_v [N s/m] by least squares, nothing else in the model."""
     columns = np.column_stack([motion["acceleration"], motion["velocity"]])
-    return np.linalg.lstsq(columns, motion["force"], rcond=None)[0]
+    return np.asarray(np.linalg.lstsq(columns, motion["force"], rcond=None)[0], dtype=float)
 
 
 def stretches(motion: dict[str, Array]) -> list[Experiment]:
