@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from made_bench import MODEL, RICH, blank, measured, white
+from made_bench import MODEL, RICH, blank, measured
 
 from compare import NoiseCovariance, NoiseModel
 from compare.bench_design import make_blocks
