@@ -23,13 +23,14 @@ from compare.findings import NextExperiment
 from compare.form_fit import shape_grid
 from compare.gram import Scan, energy, positive_flags
 from compare.search import Attempt, Stage
-from effects.effect import ActiveEffect, BenchPath
+from effects.effect import STRAIN_UNITS, ActiveEffect, BenchPath
 
 Array = NDArray[np.float64]
 _ZERO_CELSIUS = 273.15
 _SHAPES = 40
 _REPEATS = 2
 _NO_BETTER = 0.5
+_PATH_WORDS = {"tension": "strain", "torsion": "twist", "bending": "curvature", "shear": "deflection over length"}
 
 
 @dataclass(frozen=True)
@@ -95,10 +96,12 @@ def _proposal(
         grip = np.full(len(strain), tension)
     new = replace(path, strain=strain, time=time, tension=grip, temperature=temperature or path.temperature)
     new = replace(new, length=length or path.length)
-    conditions, words = {}, [f"amplitude {np.abs(strain).max():.3g}"]
+    conditions: dict[str, float] = {}
+    words = [f"a largest {_PATH_WORDS[block.kind]} of {np.abs(strain).max():.3g}"]
+    speed = 0.0
     if time is not None:
         speed = float(np.abs(np.diff(strain) / np.diff(time)).max())
-        words.append(f"largest rate {speed:.3g} per second")
+        words.append(f"a largest rate of {speed:.3g} per second")
     for name, value, text in (
         ("axial tension [N]", tension, f"axial tension {tension or 0:.4g} N"),
         ("temperature [degC]", None if temperature is None else temperature - _ZERO_CELSIUS,
@@ -108,9 +111,10 @@ def _proposal(
         if value is not None:
             conditions[name] = round(float(value), 6)
             words.append(text)
-    conditions["amplitude"] = float(f"{np.abs(strain).max():.4g}")
+    unit = "-" if STRAIN_UNITS[block.kind] == "1" else STRAIN_UNITS[block.kind]
+    conditions[f"largest {_PATH_WORDS[block.kind]} [{unit}]"] = float(f"{np.abs(strain).max():.4g}")
     if time is not None:
-        conditions["rate [1/s]"] = float(f"{speed:.4g}")
+        conditions[f"largest rate [{unit.replace('-', '1')}/s]"] = float(f"{speed:.4g}")
     return Proposal(new, conditions, ", ".join(words))
 
 
@@ -191,9 +195,8 @@ class _Contest:
 
 def _new_record(block: Block, path: BenchPath) -> BenchRecord:
     """A record of a block on another path, with the noise of its channels."""
-    template = next(r for r in block.records if not any(x.flipped for x in r.readings)) if any(
-        not any(x.flipped for x in r.readings) for r in block.records
-    ) else block.records[0]
+    driven = [r for r in block.records if not any(x.flipped for x in r.readings)]
+    template = driven[0] if driven else block.records[0]
     n = len(path.strain)
     readings = tuple(
         replace(

@@ -15,13 +15,15 @@ from numpy.typing import NDArray
 
 from compare.bench_design import Block
 from compare.evidence import LeftOut, Null, left_out, log_e_value, splits
-from compare.form_fit import FormFit, Site, refine, shape_grid, sites
+from compare.form_fit import FormFit, Site, fitted, refine, shape_grid, sites, total_cost
 from compare.gram import Grams, Scan
 from compare.shared_misfit import SharedMisfit, shared_misfit
 from effects.effect import ActiveEffect, Effect, Form
 
 Array = NDArray[np.float64]
 Terms = tuple[tuple[ActiveEffect, ...], ...]
+_WORTH_A_SEARCH = 8.0  # fall of the square residual on the grid below which a shape is not searched further
+_FAR_BEHIND = 0.1  # or below that part of the largest fall
 _EDGE = 5.0  # nats that a shape at the end of its range costs in the ranking
 _WORTH_FORM = 5.0  # nats by which a richer form has to predict better
 Progress = Callable[[float, str], None]
@@ -96,6 +98,8 @@ class Stage:
         self.needed = float(np.log(max(len(self.sites), 1) / alpha))
         self._null: dict[int, Null] = {}
         self._trials: dict[tuple[int, str, str | None, str], Trial] = {}
+        self._grids: dict[tuple[int, str, str | None, str], tuple[Grams, list[tuple[float, ...]], float]] = {}
+        self._largest_fall: dict[int, float] = {}
 
     def misfit(self) -> SharedMisfit:
         """The misfit that repeats share, all blocks together."""
@@ -116,13 +120,30 @@ class Stage:
 
     def _try(self, site: Site, form: Form) -> Trial:
         block, scan = self.blocks[site.block], self.scans[site.block]
-        shapes = shape_grid(form, block)
-        grid = scan.grid(site.term(form, shapes[0]), shapes)
-        log_e = log_e_value(grid, self.null(site.block), splits(len(block.groups)))
-        fit = refine(scan, site.term(form, shapes[0]), grid, shapes)
+        grid, shapes, fall = self._grid(site, form)
+        promising = fall > max(_WORTH_A_SEARCH, _FAR_BEHIND * self._largest_fall[site.block])
+        if promising:
+            fit = refine(scan, site.term(form, shapes[0]), grid, shapes)
+        else:
+            term = site.term(form, shapes[int(np.argmin(np.atleast_1d(total_cost(grid))))])
+            fit = fitted(scan.candidate(term), term)
+        log_e = -np.inf
+        if promising or not any(self.accepted):
+            log_e = log_e_value(grid, self.null(site.block), splits(len(block.groups)))
         near = left_out(fit.near or fit.grams)
         gain = 0.5 * (self.left[site.block].square - near.square)
         return Trial(site, fit, log_e, gain, near.shared)
+
+    def _grid(self, site: Site, form: Form) -> tuple[Grams, list[tuple[float, ...]], float]:
+        """Gram matrices over the starts of the shapes, and how far the square residual falls there."""
+        key = (site.block, site.effect.name, site.channel, form.name)
+        if key not in self._grids:
+            shapes = shape_grid(form, self.blocks[site.block])
+            grid = self.scans[site.block].grid(site.term(form, shapes[0]), shapes)
+            fall = float(total_cost(self.base[site.block]) - np.min(total_cost(grid)))
+            self._grids[key] = grid, shapes, fall
+            self._largest_fall[site.block] = max(self._largest_fall.get(site.block, 0.0), fall)
+        return self._grids[key]
 
     def plain(self) -> list[Attempt]:
         """Every effect in its plain form, best first."""
@@ -134,6 +155,9 @@ class Stage:
 
     def _attempts(self, forms: Mapping[Site, Sequence[Form]]) -> list[Attempt]:
         by_effect: dict[str, list[Trial]] = {}
+        for site, choices in forms.items():
+            for form in choices:
+                self._grid(site, form)  # so that what is far behind need not be searched
         for site, choices in forms.items():
             best = max((self.trial(site, form) for form in choices), key=_worth_its_form)
             by_effect.setdefault(site.effect.name, []).append(best)

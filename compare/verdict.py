@@ -121,14 +121,14 @@ def _forward(first: Stage, before: SharedMisfit, tell: Progress) -> list[Taken]:
 def _backward(steps: list[Taken], before: SharedMisfit) -> list[Taken]:
     """Effects that the later ones have made unnecessary are taken out again."""
     for taken in steps[:-1]:
-        if len(steps) < 3:
+        if len(steps) < 2:
             break
         now = steps[-1].after
         rest = now.without(taken.attempt.effect.name)
         rest = rest.upgraded(rest.names)
         without = rest.misfit()
         adequate = without.z < ADEQUATE_Z and without.T - steps[-1].misfit.T < ADEQUATE_Z * without.std
-        adequate |= without.T < _NEGLIGIBLE * before.T
+        adequate = len(steps) > 2 and (adequate or without.T < _NEGLIGIBLE * before.T)
         if adequate or rest.score - now.score < max(rest.needed, _SMALLEST_SECOND * steps[0].attempt.gain):
             steps = [s for s in steps if s is not taken]
             steps[-1] = replace(steps[-1], after=rest, misfit=without)
