@@ -87,14 +87,13 @@ fits = {f.experiment.id: f for f in comparison.fits}
 fig, axes = plt.subplots(1, len(groups), figsize=(12, 2.8), sharey=True)
 for ax, pair in zip(axes, groups, strict=True):
     for e, colour in zip(pair, ("#0072b2", "#56b4e9"), strict=True):
-        ax.plot(
-            e.record["extension"] * 1e3, fits[e.id].measured - fits[e.id].model, ".", ms=3, color=colour, label=e.id
-        )
+        ax.plot(e.record["extension"] * 1e3, fits[e.id].measured - fits[e.id].model, ".", ms=3, color=colour)
     ax.axhspan(-2 * fits[e.id].noise_floor, 2 * fits[e.id].noise_floor, color="0.9", zorder=0)
     ax.set(xlabel="extension [mm]", title=f"{e.set}, {e.conditions['temperature'] - 273.15:.0f} °C")
-    ax.legend(frameon=False, loc="lower left", handletextpad=0)
 axes[0].set_ylabel("measured - model [N]")
-fig.suptitle("Residuals of both mountings, and twice the noise floor", x=0.01, ha="left")
+fig.suptitle(
+    "Residuals of the first mounting (dark) and the second (light); band: twice the noise floor", x=0.01, ha="left"
+)
 fig.tight_layout()
 plt.show()
 assert not comparison.where_it_fails()

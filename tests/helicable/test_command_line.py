@@ -218,10 +218,20 @@ def test_demo_leaves_the_report_and_everything_it_shows(tmp_path, monkeypatch, c
         "towing-cable.png",
         "towing-pull-force.png",
         "run.nc",
+        "explain.json",
     } <= files
     page = (out / "report.html").read_text(encoding="utf-8")
     assert "http" not in page.replace("http-equiv", "").replace("https://doi.org", "")
-    assert page.count("data:image/png;base64,") >= 6
-    titles = [page.index(t) for t in ("The cable</h2>", "From the mesh to the section</h2>", "The towing run</h2>")]
+    assert page.count("data:image/png;base64,") >= 9
+    assert json.loads((out / "explain.json").read_text())["effects"] == ["interlayer-friction"]
+    titles = [
+        page.index(t)
+        for t in (
+            "The cable</h2>",
+            "From the mesh to the section</h2>",
+            "The towing run</h2>",
+            "The missing effect</h2>",
+        )
+    ]
     assert titles == sorted(titles)
     assert "142 MPa" in page
