@@ -31,6 +31,7 @@ from effects.effect import ActiveEffect, Effect
 ADEQUATE_Z = 3.0
 CLEAR_Z = 5.0
 CLEAR_F = 1.05
+GROSS_F = 2.0  # what is shared outweighs the noise: nothing is adequate, though it may sit in too few runs for a large z
 TIE = 3.5
 IDENTIFIED, FAMILY = 0.95, 0.85
 _MOST = 3
@@ -86,7 +87,7 @@ def decide(
     tell(0.0, "trying every effect beside the linear model")
     steps = _forward(first, before, tell)
     if not steps:
-        unknown = before.z > CLEAR_Z and before.F > CLEAR_F
+        unknown = (before.z > CLEAR_Z and before.F > CLEAR_F) or (before.z > ADEQUATE_Z and before.F > GROSS_F)
         closest = None
         if unknown:
             best = max(first.plain(), key=lambda a: a.share)
@@ -285,7 +286,7 @@ def _judge(
     sets = {name: tied(attempts) for name, attempts in rivals.items()}
     single = tuple(name for name in final.names if len(sets.get(name, ())) <= 1)
     union = tuple(dict.fromkeys(n for name in final.names if name not in single for n in sets[name]))
-    adequate = after.z < ADEQUATE_Z
+    adequate = after.z < ADEQUATE_Z and after.F < GROSS_F
     closest = None
     verdict: Verdict
     if not adequate and share < FAMILY and before.F >= 1.1:
