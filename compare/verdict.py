@@ -23,8 +23,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from compare.bench_design import Block
+from compare.effect_pairs import pair_gains
 from compare.findings import Verdict
-from compare.search import Attempt, Progress, Stage, pair_gains
+from compare.search import Attempt, Progress, Stage
 from compare.shared_misfit import SharedMisfit
 from effects.effect import ActiveEffect, Effect
 
