@@ -22,7 +22,7 @@ from compare.localisation import marks
 from compare.next_experiment import separating_experiment
 from compare.search import Attempt, Progress, Stage
 from compare.section_finding import section_findings
-from compare.testability import testability
+from compare.testability import testability, worth_trying
 from compare.thinning import thinned
 from compare.validation import set_error
 from compare.verdict import TIE, Outcome, decide, tied
@@ -79,10 +79,8 @@ def explain(
         )
     blocks = make_blocks(bench, before.model, before.noise)
     tell(0.1, "asking what these experiments can tell apart")
-    separation, untestable, smallest, _ = testability(blocks, effects)
-    hidden = {u.effect for u in untestable}
-    testable = [e for e in effects if e.name not in hidden]
-    outcome = decide(blocks, testable, lambda f, s: tell(0.15 + 0.65 * f, s))
+    separation, untestable, smallest, D = testability(blocks, effects)
+    outcome = decide(blocks, worth_trying(effects, blocks, D), lambda f, s: tell(0.15 + 0.65 * f, s))
     assumed = not outcome.before.from_repeats or any(c.assumed for c in before.noise.by_channel.values())
     verdict = _tier(outcome, assumed)
     tell(0.8, "calibrating the model with the effects, judging it on what it did not fit")
@@ -96,7 +94,7 @@ def explain(
         confusable=outcome.confusable,
         closest=outcome.closest,
         ranking=_ranking(outcome, verdict),
-        untestable=untestable,
+        untestable=tuple(u for u in untestable if u.effect not in (*outcome.effects, *outcome.confusable)),
         separation=separation,
         smallest_seen=smallest,
         path=_path(outcome, before, after),
@@ -246,7 +244,7 @@ def _where(before: Comparison, after: Comparison) -> tuple[Place, ...]:
 def _next(outcome: Outcome, verdict: Verdict) -> NextExperiment | None:
     if verdict == "confusable":
         for name, rivals in outcome.rivals.items():
-            names = tied(rivals)
+            names = tied(rivals, name)
             if len(names) > 1:
                 return separating_experiment(outcome.final.without(name), [r for r in rivals if r.effect.name in names])
     return None

@@ -20,7 +20,7 @@ from effects.effect import ActiveEffect, Effect, Form
 
 Array = NDArray[np.float64]
 _LARGEST_GRID = 90
-_ON_A_LINE = 9
+_ON_A_LINE = 6
 _AROUND = (-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0)  # standard errors
 _MATTERS = 1.0  # twice the log likelihood
 
@@ -212,7 +212,7 @@ def _search(
             cost_of,
             start,
             method="Nelder-Mead",
-            options={"initial_simplex": simplex, "maxfev": 35 * len(parameters), "xatol": 1e-3, "fatol": 1e-2},
+            options={"initial_simplex": simplex, "maxfev": 25 * len(parameters), "xatol": 1e-3, "fatol": 1e-2},
         )
         u, value = (found.x, float(found.fun)) if found.fun < best else (start, best)
     return replace(term, shape=shape_of(u)) if value < cost else term

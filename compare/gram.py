@@ -196,6 +196,11 @@ class Scan:
         self._paths = [record.inside(self.accepted) for record in block.records]
         self._plain = not any(t.form.stage == "filter" for t in self.accepted)
         self._loads = [[(r.role == "load") for r in record.readings] for record in block.records]
+        self._known = [
+            [np.concatenate((Z, rest), axis=1) for Z, rest in zip(Zs, rests, strict=True)]
+            for Zs, rests in zip(self._fixed, self._rest, strict=True)
+        ]
+        self._known_products = np.array([V.T @ V for known in self._known for V in known])
 
     def base(self) -> Grams:
         """Of the accepted terms alone."""
@@ -208,7 +213,32 @@ class Scan:
 
     def cost_matrix(self, term: ActiveEffect) -> Array:
         """A (R, P + 3, P + 3) of the accepted terms and one more."""
-        return self._products(self._columns(term))
+        if term.form.stage != "section" or not self._plain:
+            return self._products(self._columns(term))
+        P, k = self._fixed[0][0].shape[1], len(term.form.strength)
+        size = P + k + 3
+        own, across = np.zeros((len(self._known_products), k, k)), np.zeros((len(self._known_products), k, P + 3))
+        at = 0
+        for i, known in enumerate(self._known):
+            c = self._strain_columns(i, term)
+            for reading, load, V in zip(self.block.records[i].readings, self._loads[i], known, strict=True):
+                if load:
+                    white = reading.whiten.samples(reading.stiffness * c)
+                    own[at] = white.T @ white
+                    across[at] = white.T @ V
+                at += 1
+        old = [*range(P), *range(P + k, size)]
+        A = np.empty((len(own), size, size))
+        A[:, P : P + k, P : P + k] = own
+        A[np.ix_(range(len(own)), old, old)] = self._known_products
+        A[:, P : P + k, old] = across
+        A[:, old, P : P + k] = across.swapaxes(1, 2)
+        return A
+
+    def _strain_columns(self, i: int, term: ActiveEffect) -> Array:
+        """Columns of a section effect in record i, in strain: (n, k)."""
+        c = term.form.respond(self._paths[i], *term.shape)[self.block.records[i].led.lead :]
+        return c[:, None] if c.ndim == 1 else c
 
     def grid(self, term: ActiveEffect, shapes: Sequence[tuple[float, ...]]) -> Grams:
         """Of one more term at several shapes: S and A of shape (m, ...); X, which no search needs, is left empty."""
@@ -234,9 +264,7 @@ class Scan:
         return [[np.concatenate(z, axis=1) for z in zip(a, b, strict=True)] for a, b in zip(self._fixed, own, strict=True)]
 
     def _section_columns(self, i: int, term: ActiveEffect) -> list[Array]:
-        record = self.block.records[i]
-        c = term.form.respond(self._paths[i], *term.shape)[record.led.lead :]
-        c = c[:, None] if c.ndim == 1 else c
+        record, c = self.block.records[i], self._strain_columns(i, term)
         return [
             r.whiten.samples(r.stiffness * c) if load else np.zeros(c.shape)
             for r, load in zip(record.readings, self._loads[i], strict=True)

@@ -13,7 +13,7 @@ in the shape that suits it best. An effect of size s is seen about when s D_i / 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -173,21 +173,36 @@ def _distance(one: Sequence[Signatures], rival: Sequence[Signatures]) -> float:
 
 def _why_not(effect: Effect, blocks: Sequence[Block], found: Sequence[Signatures], D: float) -> str | None:
     """Sentence why an effect is not testable with these blocks, or None."""
+    reason = cannot_act(effect, blocks, bool(found))
+    if reason or TESTABLE <= D:
+        return reason
+    kinds = [block for block in blocks if block.kind in effect.kinds]
+    if effect.stage == "cross" and any("coupling" in block.base for block in kinds):
+        return "the coupling is part of the section already and is calibrated with it"
+    return (
+        f"at 2 % of the load it is only {D:.1f} noise units away from a refitted linear model (3 are needed); {effect.needs}"
+    )
+
+
+def cannot_act(effect: Effect, blocks: Sequence[Block], has_place: bool) -> str | None:
+    """Sentence why an effect cannot show in these experiments whatever its size, or None."""
     kinds = [block for block in blocks if block.kind in effect.kinds]
     if not kinds:
         return f"acts in {', '.join(effect.kinds)} experiments, of which there are none"
     reasons = [effect.why_untestable(block.paths) for block in kinds]
     if all(reasons):
         return str(reasons[0])
-    if not found:
+    if not has_place:
         return "the other load (torque of a tension test, force of a torsion test) was not recorded"
-    if TESTABLE <= D:
-        return None
-    if effect.stage == "cross" and any("coupling" in block.base for block in kinds):
-        return "the coupling is part of the section already and is calibrated with it"
-    return (
-        f"at 2 % of the load it is only {D:.1f} noise units away from a refitted linear model (3 are needed); {effect.needs}"
-    )
+    return None
+
+
+def worth_trying(library: Sequence[Effect], blocks: Sequence[Block], D: Mapping[str, float]) -> list[Effect]:
+    """Effects that could show if they are large, also those whose smallest size of interest would not.
+
+    Left out are those that cannot act here, and those that would not show at ten times that size.
+    """
+    return [e for e in library if D[e.name] >= TESTABLE / 10 and cannot_act(e, blocks, True) is None]
 
 
 def covariates(block: Block) -> dict[str, Array]:

@@ -173,6 +173,8 @@ def _further(steps: Sequence[Taken]) -> Taken | None:
             continue
         if best is None or together.score < best.after.score:
             best = Taken(found, together, after)
+        if after.z < ADEQUATE_Z or after.T < _NEGLIGIBLE * left.T:
+            break  # rivals for its place are looked for at the end
     return best
 
 
@@ -224,7 +226,7 @@ def _rivals(final: Stage) -> tuple[Stage, dict[str, tuple[Attempt, ...]]]:
         mine = next((a for a in attempts if a.effect.name == name), None)
         if mine is not None and best is not mine and best.rank - mine.rank >= TIE:
             exchanged = final.without(name).with_attempt(best)
-            if exchanged.score < final.score:
+            if exchanged.score < final.score and exchanged.misfit().T < final.misfit().T:
                 final = exchanged
                 name, attempts = best.effect.name, _in_place_of(exchanged, best.effect.name)
         rivals[name] = attempts
@@ -269,10 +271,10 @@ def acts_per_record(blocks: Sequence[Block], term: ActiveEffect) -> bool:
     return True
 
 
-def tied(attempts: Sequence[Attempt]) -> tuple[str, ...]:
-    """Effects whose left-out gain is within the tie of the best one."""
-    best = attempts[0].rank
-    return tuple(a.effect.name for a in attempts if best - a.rank < TIE)
+def tied(attempts: Sequence[Attempt], accepted: str) -> tuple[str, ...]:
+    """Effects whose left-out gain is within the tie of the accepted one, itself among them."""
+    mine = next((a.rank for a in attempts if a.effect.name == accepted), attempts[0].rank)
+    return tuple(a.effect.name for a in attempts if abs(mine - a.rank) < TIE)
 
 
 def _judge(
@@ -284,7 +286,7 @@ def _judge(
 ) -> Outcome:
     after = final.misfit()
     share = _left_out_share(first, final)
-    sets = {name: tied(attempts) for name, attempts in rivals.items()}
+    sets = {name: tied(attempts, name) for name, attempts in rivals.items()}
     single = tuple(name for name in final.names if len(sets.get(name, ())) <= 1)
     union = tuple(dict.fromkeys(n for name in final.names if name not in single for n in sets[name]))
     adequate = after.z < ADEQUATE_Z and after.F < GROSS_F
