@@ -49,11 +49,10 @@ def test_the_damper_without_a_clock_shows_no_effect_of_rate(of_damper):
 
 
 def test_offset_and_stiffening_are_no_answer_for_the_damper(of_damper):
-    """An offset leaves all of the misfit. A cubic spring is below what 2 % of it would show, and is not offered."""
+    """Both leave all of the misfit on the cycles left out; a spring that hardens is worlds behind the slip."""
     ranked = {c.effect: c for c in of_damper.ranking}
     assert ranked["sensor-offset"].share < 0.01 and ranked["sensor-offset"].log_e < ranked["sensor-offset"].needed
-    assert "stiffening" not in {*of_damper.confusable, *of_damper.effects}
-    assert "stiffening" in {u.effect for u in of_damper.untestable} or ranked["stiffening"].share < 0.01
+    assert ranked["stiffening"].share < 0.01 and ranked["stiffening"].behind > 1000
 
 
 def test_the_damper_at_larger_amplitude_is_predicted(of_damper):
@@ -77,14 +76,16 @@ def test_the_conductor_softens_with_amplitude_and_plasticity_stays_in_the_set(tm
 
 
 def test_the_strand_yields_but_thirteen_points_do_not_tell_the_place(tmp_path):
-    """Expected: slack toe and plasticity. Found: a slip limit is reached; of the grips or of the metal, 14 nats apart.
+    """Expected: slack toe and plasticity. Found: a slip limit is reached; of the grips or of the metal, some 15 nats apart.
 
     Thirteen monotonic points in four parts, noise assumed. The toe is not found beside it.
     """
     found = findings_of(strand.write(DATA, tmp_path))
     assert found.verdict in ("family-identified", "confusable")
     leading = [c for c in found.ranking if c.log_e > c.needed]
-    assert {c.effect for c in leading} == {"grip-slip", "plasticity"}
+    assert (
+        {"grip-slip", "plasticity"} <= {c.effect for c in leading} <= {"grip-slip", "plasticity", "interlayer-friction"}
+    )
     assert all(c.share > 0.97 for c in leading)
     assert found.noise_assumed
 
