@@ -81,14 +81,12 @@ def demo(
         _towing_section(run, used, stiff, pictures),
         *([] if explained is None else [_effect_section(*explained)]),
     )
-    facts = _facts(result, run)
     if explained is not None:
-        facts.append(("missing in the example campaign", explained[0].headline().split(",")[0]))
         write_json(out / "explain.json", explained[0].record())
     page = Report(
         f"{made.name}: from the drawing to the towing run",
         f"{made.title}. Every step of the chain in the order of the data; assumed numbers are marked and have a range.",
-        facts,
+        _facts(result, run),
         sections,
     ).write(out / "report.html")
     files = sorted(path.name for path in out.iterdir())
