@@ -20,7 +20,7 @@ from compare.findings import Candidate, Findings, NextExperiment, Place, SetErro
 from compare.gaussian_process_patch import patch_error, refit_error
 from compare.localisation import marks
 from compare.next_experiment import separating_experiment
-from compare.search import Attempt, Progress, Stage
+from compare.search import Attempt, Progress
 from compare.section_finding import section_findings
 from compare.testability import testability, worth_trying
 from compare.thinning import thinned
@@ -172,11 +172,19 @@ def _ranking(outcome: Outcome, verdict: Verdict) -> tuple[Candidate, ...]:
     first = outcome.first
     attempts = {a.effect.name: a for a in first.plain()}
     for step in outcome.steps[:1]:
-        attempts[step.attempt.effect.name] = step.attempt
+        if _tried_alone(step.attempt, first):
+            attempts[step.attempt.effect.name] = step.attempt
     ordered = sorted(attempts.values(), key=lambda a: -a.rank)
     best = ordered[0].rank if ordered else 0.0
     return tuple(
         _candidate(a, outcome, best - a.rank, parameters=i < _WITH_PARAMETERS) for i, a in enumerate(ordered)
+    )
+
+
+def _tried_alone(attempt: Attempt, first: Stage) -> bool:
+    """Whether nothing was accepted beside it: not so where the effect that was added first was taken out again."""
+    return all(
+        len(t.fit.x) == len(first.blocks[t.site.block].base) + len(t.fit.term.form.strength) for t in attempt.trials
     )
 
 

@@ -142,7 +142,7 @@ class Grams:
         mean = np.zeros(self.P)
         mean[: self.base] = 1.0
         diagonal = np.diagonal(self.S, axis1=-2, axis2=-1).sum(axis=-2)
-        size = np.clip(diagonal[..., :-1] / np.maximum(diagonal[..., -1:], 1e-300), 0.0, _LARGEST_SIZE)
+        size = np.clip(diagonal[..., :-1] / np.maximum(diagonal[..., -1:], 1e-200), 0.0, _LARGEST_SIZE)
         precision = np.ones_like(size)
         precision[..., self.base :] = np.maximum(size[..., self.base :], 1e-12) / _PRIOR_STRENGTH**2
         return mean, precision
