@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.bench_model import BenchModel
-from compare.bench_path import LedPath, bench_paths, load_controlled, load_per_strain, path_length
+from compare.bench_path import LedPath, bench_paths, load_per_strain, path_length
 from compare.experiment import Experiment
 from compare.innovations import innovations
 from compare.kinds import KINDS
@@ -67,8 +67,8 @@ class Whitener:
 class Reading:
     """One measured channel of one record, ready to be compared: target y (n,) and the factors of the base columns.
 
-    `signal` is what a random gain multiplies, in units of y. `role` is ``load`` for the main line and ``cross`` for the other load; `unit_bias` is what a bias of one unit of the
-    channel does to y; `flipped` says that the path was measured.
+    `signal` is what a random gain multiplies, in units of y. `role` is ``load`` for the main line and ``cross`` for the
+    other load; `unit_bias` is what a bias of one unit of the channel does to y; `flipped` says that the path was measured.
     """
 
     channel: str

@@ -71,10 +71,7 @@ def _own_path(experiment: Experiment, model: BenchModel) -> BenchPath:
     record = experiment.record
     stiffness = load_per_strain(model, experiment)
     given = record[record.prescribed]
-    if load_controlled(experiment):
-        strain = given / stiffness
-    else:
-        strain = given / path_length(experiment, record.prescribed)
+    strain = given / (stiffness if load_controlled(experiment) else path_length(experiment, record.prescribed))
     if experiment.kind == "tension":
         tension: Array | None = np.maximum(stiffness * strain, 0.0)
     elif "axial tension" in experiment.conditions:

@@ -51,21 +51,28 @@ def _solve_passive(A: Array, b: Array, passive: Flags, x: Array) -> None:
 
 
 @kernel
+def _steepest(A: Array, b: Array, passive: Flags, x: Array) -> int:
+    """The bound unknown along which the cost falls most, columns scaled to one, or -1 if it falls along none."""
+    best, steepest = -1, 0.0
+    for j in range(len(b)):
+        if not passive[j]:
+            slope = b[j]
+            for m in range(len(b)):
+                slope -= A[j, m] * x[m]
+            slope /= np.sqrt(A[j, j] + 1e-300)
+            if slope > steepest + 1e-9 * np.abs(b[j]) / np.sqrt(A[j, j] + 1e-300):
+                best, steepest = j, slope
+    return best
+
+
+@kernel
 def _active_set(A: Array, b: Array, positive: Flags, x: Array) -> None:
     P = len(b)
     passive = ~positive
     trial = np.empty(P)
     _solve_passive(A, b, passive, x)
     for _ in range(3 * P):
-        best, steepest = -1, 0.0
-        for j in range(P):
-            if not passive[j]:
-                slope = b[j]
-                for m in range(P):
-                    slope -= A[j, m] * x[m]
-                slope /= np.sqrt(A[j, j] + 1e-300)
-                if slope > steepest + 1e-9 * np.abs(b[j]) / np.sqrt(A[j, j] + 1e-300):
-                    best, steepest = j, slope
+        best = _steepest(A, b, passive, x)
         if best < 0:
             return
         passive[best] = True

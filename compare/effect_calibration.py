@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.bench_design import Block, make_blocks
-from compare.bench_model import UNITS, BenchModel
+from compare.bench_model import BenchModel
 from compare.calibration import CalibratedValue, Calibration, ParameterValue, bootstrap_std, calibrate, noise_std
 from compare.experiment import Experiment
 from compare.noise_floor import NoiseModel

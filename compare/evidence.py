@@ -7,8 +7,9 @@ coefficients and shapes (weak Gaussian priors, half-normal for strengths that ma
 
 is the prediction of B by the model with the effect that has seen A, over the best that the model without it can do when
 it is fitted to B itself, where also the random gain and offset of the records may be larger than the repeats showed.
-Strengths of effects that were accepted before are predicted from A on both sides. If nothing is missing the expectation of e is at most 1, so that P(e > c) <= 1/c, without regularity conditions; the mean over
-several splits is an e-value again. Source: universal inference, Wasserman, Ramdas & Balakrishnan, PNAS 117 (2020)
+Strengths of effects that were accepted before are predicted from A on both sides. If nothing is missing the expectation
+of e is at most 1, so that P(e > c) <= 1/c, without regularity conditions; the mean over several splits is an e-value
+again. Source: universal inference, Wasserman, Ramdas & Balakrishnan, PNAS 117 (2020)
 16880, doi 10.1073/pnas.1922664117, with a predictive mixture in the place of a plug-in estimate.
 
 *Left-out score.* Every group is left out once; everything is fitted to the others; half the fall of the whitened square
@@ -103,7 +104,7 @@ def log_e_value(candidate: Grams, null: Null, parts: NDArray[np.bool_]) -> float
     first = parts.astype(float)
     whole = log_marginal(candidate, S.sum(axis=2)) - 0.5 * log_det.sum(axis=1)[:, None]
     seen = log_marginal(candidate, np.einsum("vmgij,sg->svmij", S, first)) - 0.5 * (first @ log_det.T)[:, :, None]
-    ratio = logsumexp(whole) - logsumexp(seen, axis=(1, 2))
+    ratio = np.asarray(logsumexp(whole)) - np.asarray(logsumexp(seen, axis=(1, 2)))
     rest = np.array([null.best(part) for part in parts])
     return float(logsumexp(ratio - rest) - np.log(len(parts)))
 

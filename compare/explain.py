@@ -11,6 +11,8 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from compare.bench_design import make_blocks
 from compare.bench_model import BenchModel
 from compare.campaign import Campaign
@@ -21,7 +23,7 @@ from compare.gaussian_process_patch import patch_error, refit_error
 from compare.localisation import marks
 from compare.next_experiment import separating_experiment
 from compare.search import Attempt, Progress
-from compare.section_finding import section_findings
+from compare.section_finding import section_findings, with_expectations
 from compare.testability import testability, worth_trying
 from compare.thinning import thinned
 from compare.validation import set_error
@@ -149,6 +151,7 @@ def _after(before: Comparison, outcome: Outcome, campaign: Campaign) -> Comparis
     if not outcome.final.names or outcome.verdict in ("none", "unknown"):
         return before
     calibration = calibration_of(outcome.final, before.calibration, before.nominal)
+    calibration = replace(calibration, parameters=with_expectations(calibration.parameters, campaign, outcome.final))
     return compare_calibrated(replace(before, calibration=calibration), campaign)
 
 
@@ -174,11 +177,25 @@ def _ranking(outcome: Outcome, verdict: Verdict) -> tuple[Candidate, ...]:
     for step in outcome.steps[:1]:
         if _tried_alone(step.attempt, first):
             attempts[step.attempt.effect.name] = step.attempt
-    ordered = sorted(attempts.values(), key=lambda a: -a.rank)
-    best = ordered[0].rank if ordered else 0.0
+    in_place = _gaps_in_place(outcome)
+    best = max((a.rank for a in attempts.values()), default=0.0)
+    behind = {name: in_place.get(name, best - a.rank) for name, a in attempts.items()}
+    ordered = sorted(attempts.values(), key=lambda a: (behind[a.effect.name], -a.rank))
     return tuple(
-        _candidate(a, outcome, best - a.rank, parameters=i < _WITH_PARAMETERS) for i, a in enumerate(ordered)
+        _candidate(a, outcome, behind[a.effect.name], parameters=i < _WITH_PARAMETERS) for i, a in enumerate(ordered)
     )
+
+
+def _gaps_in_place(outcome: Outcome) -> dict[str, float]:
+    """By how many nats each effect is behind an accepted one in its place, the smallest where there are several."""
+    gaps: dict[str, float] = {}
+    for accepted, rivals in outcome.rivals.items():
+        mine = next((r.rank for r in rivals if r.effect.name == accepted), None)
+        for r in rivals:
+            if mine is not None:
+                gap = 0.0 if r.effect.name == accepted else max(0.0, mine - r.rank)
+                gaps[r.effect.name] = min(gap, gaps.get(r.effect.name, np.inf))
+    return gaps
 
 
 def _tried_alone(attempt: Attempt, first: Stage) -> bool:

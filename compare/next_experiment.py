@@ -5,7 +5,7 @@ what b predicts for the experiments that exist and for x twice (with a repeat),
 
 .. math::  D^2(x) = \min_{\theta_j, a_j} |W (f_b - f_j)|^2_{\text{existing} + x} ,\qquad P(\text{wrong}) = \Phi(-D/2)
 
-and x is the condition whose smallest D over the rivals is largest. Source: T-optimal designs, Atkinson & Fedorov,
+and x is the condition whose smallest D over the rivals is largest, or the cheapest of those with D > 10. Source: T-optimal designs, Atkinson & Fedorov,
 Biometrika 62 (1975) 57; Buzzi-Ferraris & Forzatti 1983. Repeating what exists is among the candidates, for honesty.
 """
 
@@ -30,16 +30,22 @@ _ZERO_CELSIUS = 273.15
 _SHAPES = 40
 _REPEATS = 2
 _NO_BETTER = 0.5
+_CLEAR = 10.0  # a distance that is enough: beyond it the cheaper condition wins
+_SMALLEST_P = 1e-6  # chances below it are not claimed
 _PATH_WORDS = {"tension": "strain", "torsion": "twist", "bending": "curvature", "shear": "deflection over length"}
 
 
 @dataclass(frozen=True)
 class Proposal:
-    """A condition to be tested: its path and the words for it; `conditions` as in experiments.csv."""
+    """A condition to be tested: its path and the words for it; `conditions` as in experiments.csv.
+
+    `cost` counts what differs from conditions that the rig has shown that it can reach, larger paths twice.
+    """
 
     path: BenchPath = field(repr=False)
     conditions: Mapping[str, float]
     words: str
+    cost: float = 0.0
 
 
 def proposals(block: Block) -> Iterator[Proposal]:
@@ -115,7 +121,19 @@ def _proposal(
     conditions[f"largest {_PATH_WORDS[block.kind]} [{unit}]"] = float(f"{np.abs(strain).max():.4g}")
     if time is not None:
         conditions[f"largest rate [{unit.replace('-', '1')}/s]"] = float(f"{speed:.4g}")
-    return Proposal(new, conditions, ", ".join(words))
+    return Proposal(new, conditions, ", ".join(words), _cost(block, amplitude, rate, tension, temperature, length))
+
+
+def _cost(
+    block: Block, amplitude: float, rate: float, tension: float | None, temperature: float | None, length: float | None
+) -> float:
+    """Twice for a larger path, once for a tension, temperature or length beyond what was tested, half for another rate."""
+    beyond = [
+        tension is not None and tension > 1.01 * max(float(p.tension.mean()) for p in block.paths if p.tension is not None),
+        temperature is not None and temperature > 0.1 + max(p.temperature for p in block.paths if p.temperature is not None),
+        length is not None and length > 1.01 * max(p.length for p in block.paths if p.length is not None),
+    ]
+    return 2.0 * (amplitude > 1) + float(sum(beyond)) + 0.5 * (rate != 1)
 
 
 def separating_experiment(rest: Stage, rivals: Sequence[Attempt]) -> NextExperiment | None:
@@ -140,10 +158,11 @@ def separating_experiment(rest: Stage, rivals: Sequence[Attempt]) -> NextExperim
     before = float(1 - weights[0] / weights.sum())
     contests = [_Contest(rest, b, truth.term, truth.x, other) for other in others]
     found = [(min(c.distance(p) for c in contests), p) for p in proposals(block)]
-    D, chosen = max(found, key=lambda item: item[0])
+    enough = min(max(d for d, _ in found), _CLEAR)
+    D, chosen = min((f for f in found if f[0] >= enough), key=lambda f: (f[1].cost, -f[0]))
     again = min(c.distance(None) for c in contests)
     names = tuple(r.effect.name for r in (best, *others))
-    after, repeat = float(ndtr(-D / 2)), float(ndtr(-again / 2))
+    after, repeat = max(float(ndtr(-D / 2)), _SMALLEST_P), max(float(ndtr(-again / 2)), _SMALLEST_P)
     if D < _NO_BETTER:
         sentence = (
             f"no {block.kind} experiment within reach separates {' from '.join(names)}: they are the same law there. "
@@ -152,11 +171,15 @@ def separating_experiment(rest: Stage, rivals: Sequence[Attempt]) -> NextExperim
         return NextExperiment(block.kind, {}, names, before, before, before, sentence)
     sentence = (
         f"{block.kind} with {chosen.words}, done twice, separates {' from '.join(names)}: chance of a wrong name "
-        f"{before:.2g} -> {min(after, before):.1g} (repeating what exists: {min(repeat, before):.2g})."
+        f"{before:.2g} -> {_small(min(after, before))} (repeating what exists: {min(repeat, before):.2g})."
     )
     return NextExperiment(
         block.kind, chosen.conditions, names, before, min(after, before), min(repeat, before), sentence
     )
+
+
+def _small(p: float) -> str:
+    return f"below {_SMALLEST_P:.0e}" if p <= _SMALLEST_P else f"{p:.1g}"
 
 
 class _Contest:
@@ -176,10 +199,8 @@ class _Contest:
 
     def distance(self, proposal: Proposal | None) -> float:
         """D with the new condition done twice, or with everything repeated."""
-        if proposal is None:
-            S = 2 * self.existing
-        else:
-            S = self.existing + _REPEATS * self._products(_new_record(self.block, proposal.path))
+        new = self.existing if proposal is None else _REPEATS * self._products(_new_record(self.block, proposal.path))
+        S = self.existing + new
         base = self.scan.base()
         model = replace(base, S=S[:, None], positive=self.positive)
         mean = np.zeros(model.P)

@@ -2,9 +2,11 @@ r"""Whether the error fell, on data that no parameter was fitted to.
 
 For each set the rms residual over the noise floor, before (calibrated linear model) and after (with the effects), and
 
-.. math::  R = \frac{\text{excess after}}{\text{excess before}}, \qquad \text{excess}^2 = \sum_i n_i \max(0,\ \text{rmse}_i^2/\text{floor}_i^2 - 1)
+.. math::  R = \frac{\text{excess after}}{\text{excess before}}, \qquad
+           \text{excess}^2 = \max\Bigl(0,\ \sum_i n_i\,(\text{rmse}_i^2/\text{floor}_i^2 - 1)\Bigr)
 
-with an interval from a bootstrap over groups of repeats. "Confirmed" where its upper end is below 1. Beside it what two
+over the channels i of a set, so that noise that is small by chance in one record makes up for noise that is large in
+another; with an interval from a bootstrap over groups of repeats. "Confirmed" where its upper end is below 1. Beside it what two
 other repairs do: a Gaussian process on the residual, and the old model fitted again to the very data it is judged on.
 """
 
