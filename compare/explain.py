@@ -22,7 +22,7 @@ from compare.findings import Candidate, Findings, NextExperiment, Place, SetErro
 from compare.gaussian_process_patch import patch_error, refit_error
 from compare.localisation import marks
 from compare.next_experiment import separating_experiment
-from compare.search import Attempt, Progress
+from compare.search import Attempt, Progress, Stage
 from compare.section_finding import section_findings, with_expectations
 from compare.testability import testability, worth_trying
 from compare.thinning import thinned
@@ -130,9 +130,7 @@ def open_and_validate(findings: Findings, campaign: Campaign) -> Findings:
     ids = ", ".join(e.id for e in opened.of_set("sealed")) or "none"
     note = f"sealed experiments were opened after the model was fixed: {ids}; nothing was fitted to them."
     kept = tuple(n for n in findings.notes if not n.startswith("sealed, not read"))
-    return replace(
-        findings, comparison=before, after=after, errors=errors, notes=(*kept, note), sealed_opened=True
-    )
+    return replace(findings, comparison=before, after=after, errors=errors, notes=(*kept, note), sealed_opened=True)
 
 
 def _closed(campaign: Campaign) -> Campaign:
