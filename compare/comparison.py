@@ -202,9 +202,15 @@ def compare_calibrated(comparison: Comparison, campaign: Campaign) -> Comparison
         May have sealed experiments that were opened since.
     """
     model, noise = comparison.nominal, comparison.noise
-    bench = [e for e in campaign.readable if model.covers(e) and all((e.kind, c) in noise.by_channel for c in e.record.measured)]
+    bench = [
+        e
+        for e in campaign.readable
+        if model.covers(e) and all((e.kind, c) in noise.by_channel for c in e.record.measured)
+    ]
     fits = tuple(fit for e in bench for fit in _fit_experiment(e, model, comparison.model, noise, bench))
-    return replace(comparison, campaign=campaign, fits=fits, lack_of_fit=_lack_of_fit(fits, noise, comparison.calibration))
+    return replace(
+        comparison, campaign=campaign, fits=fits, lack_of_fit=_lack_of_fit(fits, noise, comparison.calibration)
+    )
 
 
 def _fit_experiment(

@@ -46,7 +46,7 @@ def calibrate_model(model: BenchModel, experiments: Sequence[Experiment], noise:
     blocks = make_blocks(experiments, linear.model, noise)
     if model.effects:
         terms = [[replace(e, strength=()) for e in model.effects if e.kind == block.kind] for block in blocks]
-        stage = Stage(blocks, polished(blocks, terms), ())
+        stage = Stage(blocks, polished(blocks, terms, alone=True), ())
     else:
         stage = switched_on(blocks, [find(name) for name in model.added])
     return calibration_of(stage, linear, model)
@@ -113,7 +113,9 @@ def _scale(block: Block, x: Array) -> float:
 
 def _value(linear: CalibratedValue, ratio: float, std: float, noise_only: float) -> CalibratedValue:
     size = abs(linear.value)
-    return replace(linear, value=linear.value * float(ratio), std=float(std) * size, std_noise_only=float(noise_only) * size)
+    return replace(
+        linear, value=linear.value * float(ratio), std=float(std) * size, std_noise_only=float(noise_only) * size
+    )
 
 
 def _spread(block: Block, terms: Sequence[ActiveEffect], x: Array) -> _Spread:
@@ -165,7 +167,8 @@ def _named(
     channel_unit = next((r.experiment.record.channels[term.channel].unit for r in block.records
                          if term.channel in r.experiment.record.channels), "1") if term.channel else "1"  # fmt: skip
     found = {
-        f"{term.effect.name}: {name}{tail}": value for name, value in _derived(block, i, term, x, spread, stiffness).items()
+        f"{term.effect.name}: {name}{tail}": value
+        for name, value in _derived(block, i, term, x, spread, stiffness).items()
     }
     for k, parameter in enumerate(term.form.shape):
         unit = parameter.unit_for(block.kind).replace("channel", channel_unit)
@@ -184,7 +187,9 @@ def _named(
 
 def _stiffness(block: Block) -> float:
     """Stiffness of the load channel about which the columns were taken, mean over the records."""
-    return float(np.mean([r.stiffness for record in block.records for r in record.readings if r.role == "load"] or [1.0]))
+    return float(
+        np.mean([r.stiffness for record in block.records for r in record.readings if r.role == "load"] or [1.0])
+    )
 
 
 def _derived(

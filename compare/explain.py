@@ -267,7 +267,7 @@ def _where(before: Comparison, after: Comparison) -> tuple[Place, ...]:
 def _next(outcome: Outcome, verdict: Verdict) -> NextExperiment | None:
     if verdict == "confusable":
         for name, rivals in outcome.rivals.items():
-            names = tied(rivals, name)
+            names = tied(rivals, name, outcome.after)
             if len(names) > 1:
                 return separating_experiment(outcome.final.without(name), [r for r in rivals if r.effect.name in names])
     return None

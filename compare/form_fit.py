@@ -74,7 +74,7 @@ def shape_grid(form: Form, block: Block) -> list[tuple[float, ...]]:
         axes.append(np.unique(np.clip(values, parameter.low, parameter.high)))
     while np.prod([len(a) for a in axes], initial=1.0) > _LARGEST_GRID:
         longest = max(range(len(axes)), key=lambda i: len(axes[i]))
-        axes[longest] = axes[longest][:: 2] if len(axes[longest]) > 3 else axes[longest][:1]
+        axes[longest] = axes[longest][::2] if len(axes[longest]) > 3 else axes[longest][:1]
     return [tuple(float(v) for v in shape) for shape in itertools.product(*axes)]
 
 
@@ -138,7 +138,9 @@ def _limits(form: Form, shapes: Sequence[tuple[float, ...]]) -> list[tuple[float
     for k, parameter in enumerate(form.shape):
         values = [s[k] for s in shapes]
         low, high = min(values), max(values)
-        limits.append((max(parameter.low, low / 2 if low > 0 else low), min(parameter.high, 2 * high if high > 0 else high)))
+        limits.append(
+            (max(parameter.low, low / 2 if low > 0 else low), min(parameter.high, 2 * high if high > 0 else high))
+        )
     return limits
 
 

@@ -261,7 +261,9 @@ class Scan:
             own = [_sample_white(record, terms, only=len(self.accepted)) for record in self.block.records]
         else:
             own = [self._section_columns(i, term) for i in range(len(self.block.records))]
-        return [[np.concatenate(z, axis=1) for z in zip(a, b, strict=True)] for a, b in zip(self._fixed, own, strict=True)]
+        return [
+            [np.concatenate(z, axis=1) for z in zip(a, b, strict=True)] for a, b in zip(self._fixed, own, strict=True)
+        ]
 
     def _section_columns(self, i: int, term: ActiveEffect) -> list[Array]:
         record, c = self.block.records[i], self._strain_columns(i, term)

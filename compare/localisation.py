@@ -27,6 +27,7 @@ Array = NDArray[np.float64]
 _CHANCE = 0.05
 _KNOWN_EXPONENT = 0.2
 _KNOWN_DRIFT = 0.2  # of the largest drift, from which the absence of another is told
+_A_PHASE = 0.5  # distance of the exponent of the lag over rate from -1
 _CLEAR_LOOP = 4.0  # std
 _CLEAR, _AGREE = 3.0, 0.8
 _LIKELY = 0.15  # chance of a mean beside the scatter between conditions
@@ -141,7 +142,12 @@ def _of_kind(found: Sequence[RecordSignature], dof: int, kind: str) -> list[_Sig
     if means["loop"] is not None:  # which says the same of closed paths
         del means["direction"]
     signs += [sign for sign in means.values() if sign is not None]
-    signs += _loop_exponents(loads, dof, kind) + _lag_exponent(loads, dof, kind)
+    over_rate = _lag_exponent(loads, dof, kind)
+    if (
+        over_rate and abs(over_rate[0].mark.value + 1) < _A_PHASE
+    ):  # the loop of a solid: the mean of such times says nothing
+        signs = [s for s in signs if not s.mark.name.startswith("lag")]
+    signs += _loop_exponents(loads, dof, kind) + over_rate
     for channel in dict.fromkeys(s.fit.channel for s in found):
         signs += _of_channel([s for s in found if s.fit.channel == channel], channel, dof, kind)
     return signs

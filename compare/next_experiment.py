@@ -5,7 +5,8 @@ what b predicts for the experiments that exist and for x twice (with a repeat),
 
 .. math::  D^2(x) = \min_{\theta_j, a_j} |W (f_b - f_j)|^2_{\text{existing} + x} ,\qquad P(\text{wrong}) = \Phi(-D/2)
 
-and x is the condition whose smallest D over the rivals is largest, or the cheapest of those with D > 10. Source: T-optimal designs, Atkinson & Fedorov,
+and x is the condition whose smallest D over the rivals is largest, or the cheapest of those with
+D > 10. Source: T-optimal designs, Atkinson & Fedorov,
 Biometrika 62 (1975) 57; Buzzi-Ferraris & Forzatti 1983. Repeating what exists is among the candidates, for honesty.
 """
 
@@ -129,8 +130,10 @@ def _cost(
 ) -> float:
     """Twice for a larger path, once for a tension, temperature or length beyond what was tested, half for another rate."""
     beyond = [
-        tension is not None and tension > 1.01 * max(float(p.tension.mean()) for p in block.paths if p.tension is not None),
-        temperature is not None and temperature > 0.1 + max(p.temperature for p in block.paths if p.temperature is not None),
+        tension is not None
+        and tension > 1.01 * max(float(p.tension.mean()) for p in block.paths if p.tension is not None),
+        temperature is not None
+        and temperature > 0.1 + max(p.temperature for p in block.paths if p.temperature is not None),
         length is not None and length > 1.01 * max(p.length for p in block.paths if p.length is not None),
     ]
     return 2.0 * (amplitude > 1) + float(sum(beyond)) + 0.5 * (rate != 1)

@@ -92,7 +92,9 @@ class NoiseCovariance:
     def log_determinant(self, signal: Vector) -> float:
         """ln det C."""
         _, shrink = self.update(signal)
-        of_samples = innovations(np.empty((len(signal), 0)), self.s**2, self.phi, self.white**2, np.empty((len(signal), 0)))
+        of_samples = innovations(
+            np.empty((len(signal), 0)), self.s**2, self.phi, self.white**2, np.empty((len(signal), 0))
+        )
         return float(of_samples - 2 * np.log1p(-shrink).sum())
 
     def log_likelihood(self, noise: Vector, signal: Vector) -> float:

@@ -269,12 +269,17 @@ def _worth_its_form(trial: Trial) -> float:
     return trial.total - _WORTH_FORM * (trial.fit.term.form is not trial.site.effect.forms[0])
 
 
-def polished(blocks: Sequence[Block], terms: Sequence[Sequence[ActiveEffect]], sweeps: int = 2) -> Terms:
-    """Shapes of all terms fitted together, one after the other in turn."""
+def polished(
+    blocks: Sequence[Block], terms: Sequence[Sequence[ActiveEffect]], sweeps: int = 2, alone: bool = False
+) -> Terms:
+    """Shapes of all terms fitted together, one after the other in turn.
+
+    A term that stands alone in its block is left in its shape, which a search has found, unless `alone` says otherwise.
+    """
     result = []
     for block, own in zip(blocks, terms, strict=True):
         now = list(own)
-        if sum(bool(t.form.shape) for t in now) > 1 or (len(now) > 1 and any(t.form.shape for t in now)):
+        if alone or len(now) > 1:
             for _ in range(sweeps):
                 for i, term in enumerate(now):
                     if term.form.shape:

@@ -179,9 +179,7 @@ def _why_not(effect: Effect, blocks: Sequence[Block], found: Sequence[Signatures
     kinds = [block for block in blocks if block.kind in effect.kinds]
     if effect.stage == "cross" and any("coupling" in block.base for block in kinds):
         return "the coupling is part of the section already and is calibrated with it"
-    return (
-        f"at 2 % of the load it is only {D:.1f} noise units away from a refitted linear model (3 are needed); {effect.needs}"
-    )
+    return f"at 2 % of the load it is only {D:.1f} noise units away from a refitted linear model (3 are needed); {effect.needs}"
 
 
 def cannot_act(effect: Effect, blocks: Sequence[Block], has_place: bool) -> str | None:
@@ -214,7 +212,9 @@ def covariates(block: Block) -> dict[str, Array]:
         rate = None
         if path.time is not None and len(strain) > 2:
             rate = float(np.abs(np.diff(strain) / np.diff(path.time[record.led.lead :])).max())
-        of_conditions = None if block.kind == "tension" else (None if path.tension is None else float(path.tension.mean()))
+        of_conditions = (
+            None if block.kind == "tension" else (None if path.tension is None else float(path.tension.mean()))
+        )
         values = {
             "amplitude": float(np.abs(strain).max()), "rate": rate, "axial tension": of_conditions,
             "temperature": path.temperature, "specimen length": path.length,
@@ -242,5 +242,3 @@ def confounded(blocks: Sequence[Block]) -> tuple[str, ...]:
                     "the other."
                 )
     return tuple(sentences)
-
-

@@ -26,7 +26,9 @@ _SEED = 20230218
 _RESAMPLES = 2000
 
 
-def set_error(before: Comparison, after: Comparison, name: str, baselines: Mapping[str, float] | None = None) -> SetError | None:
+def set_error(
+    before: Comparison, after: Comparison, name: str, baselines: Mapping[str, float] | None = None
+) -> SetError | None:
     """Error of one set before and after, or None if the set has no open experiment."""
     old, new = before.relative_error(name), after.relative_error(name)
     if old is None or new is None:
@@ -50,9 +52,7 @@ def _ratio(sums: Array) -> float | None:
     return float(np.sqrt(after / before)) if before > 0 else None
 
 
-def _interval(
-    squares: Array, fits: Sequence[tuple[ChannelFit, ChannelFit]]
-) -> tuple[float | None, float | None]:
+def _interval(squares: Array, fits: Sequence[tuple[ChannelFit, ChannelFit]]) -> tuple[float | None, float | None]:
     """2.5 and 97.5 % of the ratio over resampled groups of repeats, over experiments where there is one group only."""
     experiments = list({a.experiment.id: a.experiment for a, _ in fits}.values())
     groups = repeat_groups(experiments)

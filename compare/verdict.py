@@ -32,13 +32,16 @@ from effects.effect import ActiveEffect, Effect
 ADEQUATE_Z = 3.0
 CLEAR_Z = 5.0
 CLEAR_F = 1.05
-GROSS_F = 2.0  # what is shared outweighs the noise: nothing is adequate, though it may sit in too few runs for a large z
+GROSS_F = (
+    2.0  # what is shared outweighs the noise: nothing is adequate, though it may sit in too few runs for a large z
+)
 TIE = 3.5
 IDENTIFIED, FAMILY = 0.95, 0.85
 _MOST = 3
 _WORTH_FORM = 5.0
 _SMALLEST_SECOND = 0.004  # of the gain of the first effect
 _REST_LEFT = 0.4  # part of the misfit that a further effect may leave
+_REST_LEFT_BY_RIGID = 0.75  # the same for a law of a single number that helps on every left-out group
 _TRIED_TOGETHER = 3
 _PROPORTIONAL = 1e-6
 _NEGLIGIBLE = 0.02  # of the first misfit
@@ -70,9 +73,7 @@ class Outcome:
     share: float
 
 
-def decide(
-    blocks: Sequence[Block], library: Sequence[Effect], progress: Progress | None = None
-) -> Outcome:
+def decide(blocks: Sequence[Block], library: Sequence[Effect], progress: Progress | None = None) -> Outcome:
     """Search, add and judge.
 
     Parameters
@@ -186,7 +187,9 @@ def _worth(
         return False
     if alone.score - together.score < _SMALLEST_SECOND * energy:
         return False
-    return left.z < ADEQUATE_Z or after.T < _REST_LEFT * left.T
+    rigid = all(not t.fit.term.form.shape and len(t.fit.term.form.strength) == 1 for t in found.trials)
+    rest_left = _REST_LEFT_BY_RIGID if rigid and found.positive == found.folds else _REST_LEFT
+    return left.z < ADEQUATE_Z or after.T < rest_left * left.T
 
 
 def _pair(first: Stage, steps: Sequence[Taken], before: SharedMisfit) -> list[Taken] | None:
@@ -245,7 +248,8 @@ def _in_place_of(final: Stage, name: str) -> tuple[Attempt, ...]:
         same = [
             a.effect.name
             for a in attempts
-            if a.share > FAMILY and a.log_e > rest.needed
+            if a.share > FAMILY
+            and a.log_e > rest.needed
             and all(acts_per_record(rest.blocks, t.fit.term) for t in a.trials)
         ]
         if len(same) > 1:
@@ -271,10 +275,14 @@ def acts_per_record(blocks: Sequence[Block], term: ActiveEffect) -> bool:
     return True
 
 
-def tied(attempts: Sequence[Attempt], accepted: str) -> tuple[str, ...]:
-    """Effects whose left-out gain is within the tie of the accepted one, itself among them."""
+def tied(attempts: Sequence[Attempt], accepted: str, misfit: SharedMisfit) -> tuple[str, ...]:
+    """Effects whose left-out gain is within the tie of the accepted one, itself among them.
+
+    Where the model still misses something, nats are worth less: they are divided by the lack of fit F (quasi-likelihood).
+    """
+    tie = TIE * max(1.0, misfit.F)
     mine = next((a.rank for a in attempts if a.effect.name == accepted), attempts[0].rank)
-    return tuple(a.effect.name for a in attempts if abs(mine - a.rank) < TIE)
+    return tuple(a.effect.name for a in attempts if abs(mine - a.rank) < tie)
 
 
 def _judge(
@@ -286,7 +294,7 @@ def _judge(
 ) -> Outcome:
     after = final.misfit()
     share = _left_out_share(first, final)
-    sets = {name: tied(attempts, name) for name, attempts in rivals.items()}
+    sets = {name: tied(attempts, name, after) for name, attempts in rivals.items()}
     single = tuple(name for name in final.names if len(sets.get(name, ())) <= 1)
     union = tuple(dict.fromkeys(n for name in final.names if name not in single for n in sets[name]))
     adequate = after.z < ADEQUATE_Z and after.F < GROSS_F

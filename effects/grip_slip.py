@@ -10,7 +10,8 @@ Beyond the strain epsilon_0 at which the grip gives way it slides by lambda per 
 ever before: it bites as it slides. Solved exactly, since on fresh ground epsilon grows by 1/(1 + lambda/L) of the path.
 A grip that slides at one load without biting is not a case of its own: its loop is that of ideal plasticity.
 
-Richer: one sudden jump, or one to either side; a slip that grows fast at first and comes to an end, s (1 - exp(-(M - epsilon_0)/w)); grips that
+Richer: one sudden jump, or one to either
+side; a slip that grows fast at first and comes to an end, s (1 - exp(-(M - epsilon_0)/w)); grips that
 bite to either side by themselves; grips that slide anew in every cycle; and creep, a speed v per strain above
 epsilon_0. Where no specimen length is recorded L is 1 m. Source: a Coulomb slider with hardening in series with a spring,
 e.g. Jenkins' element, Ing.-Arch. 3 (1932).

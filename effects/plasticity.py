@@ -121,7 +121,9 @@ KINEMATIC = Form(
     memory=1,
     derived=(
         Derived(
-            "yield limit", "load", "load that the yielding metal carries at most",
+            "yield limit",
+            "load",
+            "load that the yielding metal carries at most",
             lambda shape, a, _reference: float(a[0] * shape[0]),
         ),
     ),
@@ -138,11 +140,15 @@ MANY_ELEMENTS = Form(
     memory=len(YIELD_STRAINS),
     derived=(
         Derived(
-            "yield limit", "load", "load that the yielding metal carries at most",
+            "yield limit",
+            "load",
+            "load that the yielding metal carries at most",
             lambda _shape, a, reference: float(a @ YIELD_STRAINS * reference.largest),
         ),
         Derived(
-            "yielding stiffness", "1", "stiffness that is lost when all metal yields, over the linear one",
+            "yielding stiffness",
+            "1",
+            "stiffness that is lost when all metal yields, over the linear one",
             lambda _shape, a, _reference: float(a.sum()),
         ),
     ),

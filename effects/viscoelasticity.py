@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from effects.effect import UNKNOWN, BenchPath, Derived, Effect, Form, Parameter, of_time
+from effects.effect import UNKNOWN, BenchPath, Effect, Form, Parameter, of_time
 from effects.maxwell_branch import maxwell_record, maxwell_step
 
 Array = NDArray[np.float64]

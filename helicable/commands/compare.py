@@ -10,6 +10,8 @@ from helicable.options import CampaignArgument, JsonOption, OutOption
 from helicable.screen import folder, progress, say, sheet, table, write_json
 from homogenize import homogenize_cable
 
+_STIFFNESS = {"EA", "GA", "EI", "GJ"}
+
 
 def compare(
     campaign: CampaignArgument,
@@ -45,15 +47,26 @@ def compare(
 
 
 def campaign_section(campaign: Campaign) -> BenchSection:
-    """The section that the campaign states; where it names a cable, that is homogenized and answers for the rest."""
+    """The section that the campaign states; where it names a cable, that is homogenized and answers for the rest.
+
+    A section that states every stiffness needs the cable only for the coupling, where the other load was recorded too.
+    """
     if campaign.cable is None:
         if campaign.section is None:
             raise SpecError("campaign.toml names neither a cable nor a [section]; add one of them.")
+        return campaign.section
+    if campaign.section is not None and _STIFFNESS <= set(campaign.section.stated) and not _other_load(campaign):
         return campaign.section
     path = campaign.folder / campaign.cable
     with progress("homogenizing") as tell:
         base = homogenize_cable(read_cable(path if path.is_file() else campaign.cable), progress=tell).section
     return base if campaign.section is None else campaign.section.completed_by(base)
+
+
+def _other_load(campaign: Campaign) -> bool:
+    """Whether a torque was recorded in tension, or a force in torsion."""
+    beside = {("tension", "torque"), ("torsion", "force")}
+    return any((e.kind, c) in beside for e in campaign.readable for c in e.record.measured)
 
 
 def _short(value: float | None) -> str:
