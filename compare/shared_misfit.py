@@ -24,6 +24,8 @@ from effects.effect import ActiveEffect
 
 Array = NDArray[np.float64]
 _RUN = 12
+ADEQUATE_Z = 3.0
+GROSS_F = 1.3
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,11 @@ class SharedMisfit:
     def z(self) -> float:
         """T over its standard deviation."""
         return self.T / max(self.std, 1e-300)
+
+    @property
+    def adequate(self) -> bool:
+        """Whether what repeats share may be noise: z below 3, and F not large, for T may sit in too few runs for a large z."""
+        return self.z < ADEQUATE_Z and self.F < GROSS_F
 
     @property
     def p(self) -> float:

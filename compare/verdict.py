@@ -26,15 +26,12 @@ from compare.bench_design import Block
 from compare.effect_pairs import pair_gains
 from compare.findings import Verdict
 from compare.search import Attempt, Progress, Stage
-from compare.shared_misfit import SharedMisfit
+from compare.shared_misfit import ADEQUATE_Z, SharedMisfit
 from effects.effect import ActiveEffect, Effect
 
-ADEQUATE_Z = 3.0
 CLEAR_Z = 5.0
 CLEAR_F = 1.05
-GROSS_F = (
-    2.0  # what is shared outweighs the noise: nothing is adequate, though it may sit in too few runs for a large z
-)
+UNKNOWN_F = 2.0  # with a z above that of an adequate model
 TIE = 3.5
 IDENTIFIED, FAMILY = 0.95, 0.85
 _MOST = 3
@@ -42,6 +39,7 @@ _WORTH_FORM = 5.0
 _SMALLEST_SECOND = 0.004  # of the gain of the first effect
 _REST_LEFT = 0.4  # part of the misfit that a further effect may leave
 _REST_LEFT_BY_RIGID = 0.75  # the same for a law of a single number that helps on every left-out group
+_REST_LEFT_OF_LITTLE = 0.15  # the same where what is left is little: a mend of the form would leave more
 _TRIED_TOGETHER = 3
 _PROPORTIONAL = 1e-6
 _NEGLIGIBLE = 0.02  # of the first misfit
@@ -89,7 +87,7 @@ def decide(blocks: Sequence[Block], library: Sequence[Effect], progress: Progres
     tell(0.0, "trying every effect beside the linear model")
     steps = _forward(first, before, tell)
     if not steps:
-        unknown = (before.z > CLEAR_Z and before.F > CLEAR_F) or (before.z > ADEQUATE_Z and before.F > GROSS_F)
+        unknown = (before.z > CLEAR_Z and before.F > CLEAR_F) or (before.z > ADEQUATE_Z and before.F > UNKNOWN_F)
         closest = None
         if unknown:
             best = max(first.plain(), key=lambda a: a.share)
@@ -110,13 +108,13 @@ def _forward(first: Stage, before: SharedMisfit, tell: Progress) -> list[Taken]:
     steps = [Taken(attempt, stage, stage.misfit())]
     while len(steps) < _MOST:
         tell(0.2 + 0.2 * len(steps), "looking for a further effect")
-        further = _further(steps)
+        further = _further(steps, before)
         if further is None:
             break
         steps.append(further)
     steps = _backward(steps, before)
     left = steps[-1].misfit
-    if left.z > ADEQUATE_Z and left.T > _NEGLIGIBLE * before.T:
+    if not left.adequate and left.T > _NEGLIGIBLE * before.T:
         steps = _pair(first, steps, before) or steps
     return steps
 
@@ -130,7 +128,7 @@ def _backward(steps: list[Taken], before: SharedMisfit) -> list[Taken]:
         rest = now.without(taken.attempt.effect.name)
         rest = rest.upgraded(rest.names)
         without = rest.misfit()
-        adequate = without.z < ADEQUATE_Z and without.T - steps[-1].misfit.T < ADEQUATE_Z * without.std
+        adequate = without.adequate and without.T - steps[-1].misfit.T < ADEQUATE_Z * without.std
         adequate = len(steps) > 2 and (adequate or without.T < _NEGLIGIBLE * before.T)
         if adequate or rest.score - now.score < max(rest.needed, _SMALLEST_SECOND * steps[0].attempt.gain):
             steps = [s for s in steps if s is not taken]
@@ -147,18 +145,18 @@ def _first(stage: Stage) -> Attempt | None:
         passing = [a for a in stage.rich(names) if a.log_e > stage.needed and a.gain > 0] if names else []
         return passing[0] if passing else None
     best = passing[0]
-    if stage.with_attempt(best).misfit().z > ADEQUATE_Z:
+    if not stage.with_attempt(best).misfit().adequate:
         rich = [a for a in stage.rich([a.effect.name for a in plain]) if a.log_e > stage.needed]
         if rich and rich[0].gain > best.gain + _WORTH_FORM:
             best = rich[0]
     return best
 
 
-def _further(steps: Sequence[Taken]) -> Taken | None:
+def _further(steps: Sequence[Taken], before: SharedMisfit) -> Taken | None:
     """One more effect beside the accepted ones, these in richer forms if that makes it unnecessary."""
     stage, misfit = steps[-1].after, steps[-1].misfit
     plain = [a for a in stage.plain() if a.effect.name not in stage.names and a.gain > stage.needed]
-    if misfit.z < ADEQUATE_Z:
+    if misfit.adequate:
         plain = [a for a in plain if a.log_e > stage.needed]
     if not plain:
         return None
@@ -170,17 +168,23 @@ def _further(steps: Sequence[Taken]) -> Taken | None:
         together = together.upgraded(together.names)
         found = next(a for a in together.without(attempt.effect.name).rich([attempt.effect.name]))
         after = together.misfit()
-        if not _worth(found, together, alone, left, after, steps[0].attempt.gain):
+        if not _worth(found, together, alone, left, after, steps[0].attempt.gain, before):
             continue
         if best is None or together.score < best.after.score:
             best = Taken(found, together, after)
-        if after.z < ADEQUATE_Z or after.T < _NEGLIGIBLE * left.T:
+        if after.adequate or after.T < _NEGLIGIBLE * left.T:
             break  # rivals for its place are looked for at the end
     return best
 
 
 def _worth(
-    found: Attempt, together: Stage, alone: Stage, left: SharedMisfit, after: SharedMisfit, energy: float
+    found: Attempt,
+    together: Stage,
+    alone: Stage,
+    left: SharedMisfit,
+    after: SharedMisfit,
+    energy: float,
+    before: SharedMisfit,
 ) -> bool:
     """Whether a further effect is more than a mend of the forms of the others."""
     if found.log_e < together.needed or alone.score - together.score < together.needed:
@@ -189,7 +193,9 @@ def _worth(
         return False
     rigid = all(not t.fit.term.form.shape and len(t.fit.term.form.strength) == 1 for t in found.trials)
     rest_left = _REST_LEFT_BY_RIGID if rigid and found.positive == found.folds else _REST_LEFT
-    return left.z < ADEQUATE_Z or after.T < rest_left * left.T
+    if left.T < (1 - IDENTIFIED) * before.T:
+        rest_left = min(rest_left, _REST_LEFT_OF_LITTLE)
+    return left.adequate or after.adequate or after.T < rest_left * left.T
 
 
 def _pair(first: Stage, steps: Sequence[Taken], before: SharedMisfit) -> list[Taken] | None:
@@ -243,17 +249,18 @@ def _in_place_of(final: Stage, name: str) -> tuple[Attempt, ...]:
     passing = [a.effect.name for a in attempts if a.log_e > rest.needed]
     if any(t.form is not t.effect.forms[0] for t in own):
         attempts = rest.rich([*passing, name])
-    elif all(acts_per_record(rest.blocks, t) for t in own):
-        # only the conditions of whole records tell: where they vary together, no form of their law may decide
-        same = [
-            a.effect.name
-            for a in attempts
-            if a.share > FAMILY
-            and a.log_e > rest.needed
-            and all(acts_per_record(rest.blocks, t.fit.term) for t in a.trials)
-        ]
-        if len(same) > 1:
-            best = {a.effect.name: a for a in (*attempts, *reversed(rest.rich(same)))}
+    else:
+        # a rival that explains most of it may need another form; where only conditions of whole records tell, no form counts
+        near = [a.effect.name for a in attempts if a.share > FAMILY and a.log_e > rest.needed]
+        if len(near) > 1:
+            best = {a.effect.name: a for a in attempts}
+            records = all(acts_per_record(rest.blocks, t) for t in own)
+            for a in rest.rich(near):
+                price = (
+                    0.0 if records and all(acts_per_record(rest.blocks, t.fit.term) for t in a.trials) else _WORTH_FORM
+                )
+                if a.rank - price > best[a.effect.name].rank:
+                    best[a.effect.name] = replace(a, gain=a.gain - price)
             attempts = sorted(best.values(), key=lambda a: -a.rank)
     return tuple(a for a in attempts if a.effect.name == name or a.effect.name not in final.names)
 
@@ -297,7 +304,7 @@ def _judge(
     sets = {name: tied(attempts, name, after) for name, attempts in rivals.items()}
     single = tuple(name for name in final.names if len(sets.get(name, ())) <= 1)
     union = tuple(dict.fromkeys(n for name in final.names if name not in single for n in sets[name]))
-    adequate = after.z < ADEQUATE_Z and after.F < GROSS_F
+    adequate = after.adequate
     closest = None
     verdict: Verdict
     if not adequate and share < FAMILY and before.F >= 1.1:

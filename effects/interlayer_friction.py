@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from effects.effect import UNKNOWN, BenchPath, Derived, Effect, Form, Parameter, of_strain, of_values
+from effects.gradual_slip import gradual_record, gradual_step
 from effects.loading_path import grip_ratio
 from effects.slip_element import slip_record, slip_step
 
@@ -102,6 +103,27 @@ def _advance_distributed(
     return _advance(strain, before, tension, state, SLIP_STRAINS * reference.largest, share, reference)
 
 
+def _gradual(path: BenchPath, slip_strain: float, share: float) -> Array:
+    grip = grip_ratio(path.tension, path.typical_tension, path.strain.size)
+    return gradual_record(path.strain, slip_strain, (1.0 - share) + share * grip)
+
+
+def _advance_gradual(
+    strain: Array,
+    before: Array,
+    dt: float,
+    tension: Array,
+    temperature: Array,
+    state: Array,
+    slip_strain: float,
+    share: float,
+    reference: BenchPath = UNKNOWN,
+) -> tuple[Array, Array]:
+    grip = grip_ratio(tension, reference.typical_tension, strain.size)
+    stress = gradual_step(state, strain - before, slip_strain, (1.0 - share) + share * grip)
+    return stress, stress
+
+
 def _why_untestable(paths: Sequence[BenchPath]) -> str | None:
     if not any(np.ptp(p.strain) > 0.0 for p in paths if p.strain.size):
         return "the strain stands still in every record"
@@ -151,6 +173,16 @@ DISTRIBUTED = Form(
         ),
     ),
 )
+GRADUAL = Form(
+    "gradual slip",
+    "section",
+    _gradual,
+    shape=(SLIP_STRAIN, TENSION_SHARE),
+    strength=(_strength("stick stiffness", "stiffness that is lost when the layers slip, over the linear one"),),
+    advance=_advance_gradual,
+    memory=1,
+    derived=ONE_ELEMENT.derived,
+)
 
 EFFECT = Effect(
     name="interlayer-friction",
@@ -161,6 +193,6 @@ EFFECT = Effect(
     needs="loops (the path turns back); at least two axial tensions to tell it from plasticity, two amplitudes to size it",
     signature="loops that do not depend on rate; stiffness falls with amplitude and rises with axial tension",
     kinds=("tension", "torsion", "bending", "shear"),
-    forms=(ONE_ELEMENT, DISTRIBUTED),
+    forms=(ONE_ELEMENT, DISTRIBUTED, GRADUAL),
     why_untestable=_why_untestable,
 )

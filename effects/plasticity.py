@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from effects.effect import UNKNOWN, BenchPath, Derived, Effect, Form, Parameter, of_strain, of_values
+from effects.gradual_slip import gradual_record, gradual_step
 from effects.slip_element import hardening_record, hardening_step, slip_record, slip_step
 
 Array = NDArray[np.float64]
@@ -105,6 +106,24 @@ def _advance_isotropic(
     return stress[:, None], np.column_stack([stress, growth])
 
 
+def _gradual(path: BenchPath, yield_strain: float) -> Array:
+    return gradual_record(path.strain, yield_strain, np.ones(path.strain.size))
+
+
+def _advance_gradual(
+    strain: Array,
+    before: Array,
+    dt: float,
+    tension: Array,
+    temperature: Array,
+    state: Array,
+    yield_strain: float,
+    reference: BenchPath = UNKNOWN,
+) -> tuple[Array, Array]:
+    stress = gradual_step(state, strain - before, yield_strain, np.ones(strain.size))
+    return stress, stress
+
+
 def _why_untestable(paths: Sequence[BenchPath]) -> str | None:
     if not any(np.ptp(p.strain) > 0.0 for p in paths if p.strain.size):
         return "the strain stands still in every record"
@@ -162,6 +181,16 @@ ISOTROPIC = Form(
     advance=_advance_isotropic,
     memory=2,
 )
+SATURATING = Form(
+    "saturating hardening",
+    "section",
+    _gradual,
+    shape=(YIELD_STRAIN,),
+    strength=(_strength("yielding stiffness", "stiffness that is lost when the metal yields, over the linear one"),),
+    advance=_advance_gradual,
+    memory=1,
+    derived=KINEMATIC.derived,
+)
 
 EFFECT = Effect(
     name="plasticity",
@@ -172,6 +201,6 @@ EFFECT = Effect(
     needs="strain beyond yield and back; at least two axial tensions to tell it from interlayer-friction",
     signature="loops that depend neither on rate nor on axial tension; a strain is left at zero load",
     kinds=("tension", "torsion", "bending", "shear"),
-    forms=(KINEMATIC, MANY_ELEMENTS, ISOTROPIC),
+    forms=(KINEMATIC, MANY_ELEMENTS, ISOTROPIC, SATURATING),
     why_untestable=_why_untestable,
 )

@@ -15,9 +15,8 @@ Method = Callable[[Path], dict[str, Any]]
 
 def explain_method(folder: Path) -> dict[str, Any]:
     """`compare.explain` as a user would call it."""
-    from compare.explain import explain
-
     from compare import BenchModel, Campaign
+    from compare.explain import explain
 
     campaign = Campaign.read(folder)
     assert campaign.section is not None
