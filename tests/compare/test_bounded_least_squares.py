@@ -18,8 +18,8 @@ def solved(Z, y, positive):
 def test_all_positive_is_nnls(seed):
     """With every unknown bounded it is the problem of Lawson & Hanson."""
     rng = np.random.default_rng(seed)
-    P = rng.integers(1, 9)
-    Z, y = rng.normal(size=(30, P)) + rng.normal(), rng.normal(size=30)
+    P = rng.integers(1, 12)
+    Z, y = rng.normal(size=(30, P)) + 3 * rng.normal(size=(30, 1)), rng.normal(size=30)  # columns much alike
     np.testing.assert_allclose(solved(Z, y, [True] * P), nnls(Z, y)[0], rtol=0, atol=1e-9)  # of numbers of size 1
 
 

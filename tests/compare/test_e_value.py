@@ -16,7 +16,7 @@ S = 0.5  # N m
 KNOWN = NoiseCovariance(s=S, phi=0.4, gain=0.005, offset=0.2, contrasts=6)
 SAMPLES_ONLY = NoiseCovariance(s=S, contrasts=6)
 TRIED = ("stiffening", "viscous-damping", "thermal-softening", "backlash")
-RUNS = 100
+RUNS = 70
 
 
 def block_of(rng, truth=MODEL, noise=KNOWN, group_gain=0.0, group_offset=0.0):

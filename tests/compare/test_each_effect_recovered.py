@@ -44,7 +44,7 @@ def test_named_with_its_parameters(name):
     truth = switched(name, kind, shape, strength, channel=channel)
     coupled = name == "tension-torsion-coupling"
     campaign = made(
-        [truth], kind, one_sided(RICH) if kind == "tension" else RICH, seed=3, n=60,
+        [truth], kind, one_sided(RICH) if kind == "tension" else RICH, seed=3, n=40,
         also=("torque",) if coupled else (), scale={"torque": 5.0} if coupled else None,
     )  # fmt: skip
     findings = explain(BenchModel(campaign.section), campaign)

@@ -15,11 +15,11 @@ SLIPS = {
 }
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1])
 @pytest.mark.parametrize("truth", SLIPS)
 def test_friction_and_plasticity_at_one_tension(truth, seed):
     """A slip limit that tension moves and one that it does not are the same law while the tension is one."""
-    campaign = made([SLIPS[truth]], "bending", ONE_TENSION, n=60, seed=seed)
+    campaign = made([SLIPS[truth]], "bending", ONE_TENSION, n=40, seed=seed)
     findings = explain(BenchModel(campaign.section), campaign)
     assert findings.verdict == "confusable"
     assert set(findings.confusable) == set(SLIPS) and findings.effects == ()
@@ -32,7 +32,7 @@ def test_friction_and_plasticity_at_one_tension(truth, seed):
 @pytest.mark.parametrize("truth", SLIPS)
 def test_two_tensions_break_the_tie(truth):
     """The same truth on a design that varies the tension has one name."""
-    campaign = made([SLIPS[truth]], "bending", RICH, n=60, seed=1)
+    campaign = made([SLIPS[truth]], "bending", RICH, n=40, seed=1)
     findings = explain(BenchModel(campaign.section), campaign)
     assert (findings.verdict, findings.effects) == ("identified", (truth,))
 
@@ -54,7 +54,7 @@ def test_lag_and_damping_where_amplitude_is_tied_to_nothing():
 
 def test_a_third_of_one_law():
     """End load introduction and rig compliance have one formula; a twin of the cable and one of the rig stay two names."""
-    campaign = made([switched("rig-compliance", "tension", (0.3,))], "tension", one_sided(RICH), n=60, seed=6)
+    campaign = made([switched("rig-compliance", "tension", (0.3,))], "tension", one_sided(RICH), n=40, seed=6)
     findings = explain(BenchModel(campaign.section), campaign)
     assert findings.verdict == "confusable"
     assert set(findings.confusable) == {"end-load-introduction", "rig-compliance"}

@@ -32,7 +32,7 @@ def condition_of(proposed):
 @pytest.fixture(scope="module", params=SLIPS)
 def tied(request):
     """The truth, its campaign at one tension, and what was found there."""
-    campaign = made([SLIPS[request.param]], "bending", ONE_TENSION, n=60, seed=1)
+    campaign = made([SLIPS[request.param]], "bending", ONE_TENSION, n=40, seed=1)
     return request.param, campaign, explain(BenchModel(campaign.section), campaign)
 
 
@@ -51,8 +51,8 @@ def test_keeps_what_it_promises(tied):
     """The proposed condition, done twice, turns the set into the one true name."""
     name, campaign, findings = tied
     new = [condition_of(findings.next_experiment.conditions)]
-    experiments = [*blank("bending", ONE_TENSION, 60), *(renumbered(blank("bending", new, 60)))]
-    old_scales = refer([SLIPS[name]], blank("bending", ONE_TENSION, 60), MODEL.with_ratios(dict.fromkeys(NOMINAL, 1.1)))
+    experiments = [*blank("bending", ONE_TENSION, 40), *(renumbered(blank("bending", new, 40)))]
+    old_scales = refer([SLIPS[name]], blank("bending", ONE_TENSION, 40), MODEL.with_ratios(dict.fromkeys(NOMINAL, 1.1)))
     more = measured(old_scales, experiments, white(0.01), seed=5)
     assert len(more.experiments) == len(campaign.experiments) + 2
     after = explain(BenchModel(more.section), more)
@@ -66,7 +66,7 @@ def test_a_repeat_keeps_the_tie(tied):
     """Doing again what exists leaves the set as it was."""
     name, _, _ = tied
     twice = [*ONE_TENSION, ONE_TENSION[0]]
-    campaign = made([SLIPS[name]], "bending", twice, n=60, seed=7)
+    campaign = made([SLIPS[name]], "bending", twice, n=40, seed=7)
     assert set(explain(BenchModel(campaign.section), campaign).confusable) == set(SLIPS)
 
 

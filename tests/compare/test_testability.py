@@ -140,5 +140,6 @@ def test_seen_from_the_size_that_is_stated(name):
     for factor in (0.2, 3.0):
         truth = refer([replace(term, strength=(factor * seen / per_strength,))], experiments)
         campaign = measured(truth, experiments, white(0.05), seed=3)
-        named.append(explain(MODEL, campaign).effects + explain(MODEL, campaign).confusable)
+        findings = explain(MODEL, campaign)
+        named.append(findings.effects + findings.confusable)
     assert named[0] == () and name in named[1]

@@ -11,14 +11,10 @@ MISSING = {
                               {"sensor-drift"}),
     "a lag without lag or damping": ("bending", switched("sensor-lag", "bending", (1.0,), channel="moment"),
                                      {"sensor-lag", "viscous-damping", "viscoelasticity"}),
-    "relaxation without rate": ("bending", switched("viscoelasticity", "bending", (3.0,), (0.5,)),
-                                {"viscoelasticity", "viscous-damping", "sensor-lag"}),
     "warmth without temperature": ("bending", switched("thermal-softening", "bending", (), (0.015,)),
                                    {"thermal-softening"}),
     "a slip without slips": ("bending", switched("plasticity", "bending", (0.3,), (0.6,)),
                              {"plasticity", "interlayer-friction", "cyclic-softening", "grip-slip"}),
-    "a grip without grips": ("tension", switched("grip-slip", "tension", (0.4, 1.5e-3)),
-                             {"grip-slip", "plasticity", "interlayer-friction", "cyclic-softening"}),
 }  # fmt: skip
 
 
@@ -26,7 +22,7 @@ MISSING = {
 def test_never_identified(case):
     """With the true effect and its mimics taken out of the library the verdict admits that something is not explained."""
     kind, effect, out = MISSING[case]
-    campaign = made([effect], kind, one_sided(RICH) if kind == "tension" else RICH, n=60, seed=2)
+    campaign = made([effect], kind, one_sided(RICH) if kind == "tension" else RICH, n=40, seed=2)
     known = [e for e in library() if e.name not in out]
     findings = explain(BenchModel(campaign.section), campaign, library=known)
     assert findings.verdict != "identified"
