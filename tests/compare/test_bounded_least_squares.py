@@ -61,3 +61,15 @@ def test_many_at_once():
     solve_bounded(A, b, positive, x)
     np.testing.assert_allclose(x, [solved(Zi, yi, positive) for Zi, yi in zip(Z, y)], rtol=1e-12, atol=1e-14)
     assert (x[:, 1:] == 0).any() and (x[:, 1:] > 0).any()
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_unknowns_that_come_and_go(seed):
+    """A spectrum of decays, each nearly its neighbours: unknowns enter, turn negative as others enter, and leave again."""
+    rng = np.random.default_rng(seed)
+    t = np.linspace(0, 3, 60)
+    Z = np.exp(-t[:, None] / np.geomspace(0.1, 3.0, 7))
+    y = Z[:, [1, 5]] @ [1.0, 0.7] + 0.02 * rng.normal(size=60)
+    x = solved(Z, y, [True] * 7)
+    assert np.all(x >= 0)
+    assert np.sum((Z @ x - y) ** 2) == pytest.approx(nnls(Z, y)[1] ** 2, rel=1e-6)  # condition 1e5, squared
