@@ -169,20 +169,13 @@ def separating_experiment(rest: Stage, rivals: Sequence[Attempt]) -> NextExperim
     if D < _NO_BETTER:
         sentence = (
             f"no {block.kind} experiment within reach separates {' from '.join(names)}: they are the same law there. "
-            "Look at the place itself, for instance at the strain of the specimen away from its grips."
+            "Look at the place itself, for instance at the strain of the specimen away from its grips"
         )
         return NextExperiment(block.kind, {}, names, before, before, before, sentence)
-    sentence = (
-        f"{block.kind} with {chosen.words}, done twice, separates {' from '.join(names)}: chance of a wrong name "
-        f"{before:.2g} -> {_small(min(after, before))} (repeating what exists: {min(repeat, before):.2g})."
-    )
+    sentence = f"{block.kind} with {chosen.words}, done twice, separates {' from '.join(names)}"
     return NextExperiment(
         block.kind, chosen.conditions, names, before, min(after, before), min(repeat, before), sentence
     )
-
-
-def _small(p: float) -> str:
-    return f"below {_SMALLEST_P:.0e}" if p <= _SMALLEST_P else f"{p:.1g}"
 
 
 class _Contest:
