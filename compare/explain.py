@@ -22,12 +22,13 @@ from compare.findings import Candidate, Findings, NextExperiment, Place, SetErro
 from compare.gaussian_process_patch import patch_error, refit_error
 from compare.localisation import marks
 from compare.next_experiment import separating_experiment
+from compare.rivals import TIE, tied
 from compare.search import Attempt, Progress, Stage
 from compare.section_finding import section_findings, with_expectations
 from compare.testability import testability, worth_trying
 from compare.thinning import thinned
 from compare.validation import set_error
-from compare.verdict import TIE, Outcome, decide, tied
+from compare.verdict import Outcome, decide
 from effects.effect import Effect
 from effects.library import library as whole_library
 from effects.library import library_notes

@@ -25,14 +25,14 @@ import numpy as np
 from compare.bench_design import Block
 from compare.effect_pairs import pair_gains
 from compare.findings import Verdict
+from compare.rivals import find_rivals, tied
 from compare.search import Attempt, Progress, Stage
 from compare.shared_misfit import ADEQUATE_Z, SharedMisfit
-from effects.effect import ActiveEffect, Effect
+from effects.effect import Effect
 
 CLEAR_Z = 5.0
 CLEAR_F = 1.05
 UNKNOWN_F = 2.0  # with a z above that of an adequate model
-TIE = 3.5
 IDENTIFIED, FAMILY = 0.95, 0.85
 _MOST = 3
 _WORTH_FORM = 5.0
@@ -41,7 +41,6 @@ _REST_LEFT = 0.4  # part of the misfit that a further effect may leave
 _REST_LEFT_BY_RIGID = 0.75  # the same for a law of a single number that helps on every left-out group
 _REST_LEFT_OF_LITTLE = 0.15  # the same where what is left is little: a mend of the form would leave more
 _TRIED_TOGETHER = 3
-_PROPORTIONAL = 1e-6
 _NEGLIGIBLE = 0.02  # of the first misfit
 
 
@@ -95,7 +94,7 @@ def decide(blocks: Sequence[Block], library: Sequence[Effect], progress: Progres
         return Outcome("unknown" if unknown else "none", (), (), closest, first, first, (), {}, before, before, 0.0)
     final = steps[-1].after
     tell(0.8, "looking for rivals of what was found")
-    final, rivals = _rivals(final)
+    final, rivals = find_rivals(final)
     return _judge(first, final, steps, rivals, before)
 
 
@@ -221,75 +220,6 @@ def _pair(first: Stage, steps: Sequence[Taken], before: SharedMisfit) -> list[Ta
             alone = first.with_attempt(one)
             best, limit = [Taken(one, alone, alone.misfit()), Taken(found[1], stage, misfit)], misfit.T
     return best
-
-
-def _rivals(final: Stage) -> tuple[Stage, dict[str, tuple[Attempt, ...]]]:
-    """For every accepted effect what would do in its place, itself among them, best first.
-
-    Where another one does clearly better it takes the place, once: what came first may have stood for what came later.
-    """
-    rivals: dict[str, tuple[Attempt, ...]] = {}
-    for name in final.names:
-        attempts = _in_place_of(final, name)
-        best = attempts[0]
-        mine = next((a for a in attempts if a.effect.name == name), None)
-        if mine is not None and best is not mine and best.rank - mine.rank >= TIE:
-            exchanged = final.without(name).with_attempt(best)
-            if exchanged.score < final.score and exchanged.misfit().T < final.misfit().T:
-                final = exchanged
-                name, attempts = best.effect.name, _in_place_of(exchanged, best.effect.name)
-        rivals[name] = attempts
-    return final, {name: rivals[name] for name in final.names if name in rivals}
-
-
-def _in_place_of(final: Stage, name: str) -> tuple[Attempt, ...]:
-    rest = final.without(name)
-    attempts = rest.plain()
-    own = [t for terms in final.accepted for t in terms if t.effect.name == name]
-    passing = [a.effect.name for a in attempts if a.log_e > rest.needed]
-    if any(t.form is not t.effect.forms[0] for t in own):
-        attempts = rest.rich([*passing, name])
-    else:
-        # a rival that explains most of it may need another form; where only conditions of whole records tell, no form counts
-        near = [a.effect.name for a in attempts if a.share > FAMILY and a.log_e > rest.needed]
-        if len(near) > 1:
-            best = {a.effect.name: a for a in attempts}
-            records = all(acts_per_record(rest.blocks, t) for t in own)
-            for a in rest.rich(near):
-                price = (
-                    0.0 if records and all(acts_per_record(rest.blocks, t.fit.term) for t in a.trials) else _WORTH_FORM
-                )
-                if a.rank - price > best[a.effect.name].rank:
-                    best[a.effect.name] = replace(a, gain=a.gain - price)
-            attempts = sorted(best.values(), key=lambda a: -a.rank)
-    return tuple(a for a in attempts if a.effect.name == name or a.effect.name not in final.names)
-
-
-def acts_per_record(blocks: Sequence[Block], term: ActiveEffect) -> bool:
-    """Whether an effect changes the stiffness of whole records and nothing else, as temperature or length do."""
-    block = next(b for b in blocks if b.kind == term.kind)
-    for record in block.records:
-        if term.form.stage == "section":
-            change = record.columns((term,), only=0)[0].sum(axis=1)
-        elif term.form.stage == "fixture":
-            change = record.columns((term,))[0].sum(axis=1)
-        else:
-            return False
-        strain = record.led.path.strain[record.led.lead :]
-        along = strain * (change @ strain) / max(float(strain @ strain), 1e-300)
-        if float(np.sum((change - along) ** 2)) > _PROPORTIONAL * max(float(change @ change), 1e-300):
-            return False
-    return True
-
-
-def tied(attempts: Sequence[Attempt], accepted: str, misfit: SharedMisfit) -> tuple[str, ...]:
-    """Effects whose left-out gain is within the tie of the accepted one, itself among them.
-
-    Where the model still misses something, nats are worth less: they are divided by the lack of fit F (quasi-likelihood).
-    """
-    tie = TIE * max(1.0, misfit.F)
-    mine = next((a.rank for a in attempts if a.effect.name == accepted), attempts[0].rank)
-    return tuple(a.effect.name for a in attempts if abs(mine - a.rank) < tie)
 
 
 def _judge(

@@ -6,7 +6,7 @@ import pytest
 from made_bench import RICH, made, one_sided, switched
 
 from compare import BenchModel, explain
-from compare.verdict import TIE
+from compare.rivals import TIE
 
 ONE_TENSION = [replace(c, tension=1000.0) for c in RICH]
 SLIPS = {
