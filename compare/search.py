@@ -61,8 +61,12 @@ class Attempt:
 
     @property
     def rank(self) -> float:
-        """Gain by which effects are ranked: less where a shape would rather leave its range."""
-        return self.gain - _EDGE * any(t.fit.at_edge for t in self.trials)
+        """Gain by which effects are ranked: less where a shape would rather leave its range.
+
+        Not so the share of the tension in the grip in a tension test, where the tension is the load and does not vary by
+        itself.
+        """
+        return self.gain - _EDGE * any(_leaves_its_range(t) for t in self.trials)
 
     @property
     def forms(self) -> tuple[str, ...]:
@@ -86,7 +90,7 @@ class Stage:
     """
 
     def __init__(
-        self, blocks: Sequence[Block], accepted: Terms, library: Sequence[Effect], alpha: float = 0.01
+        self, blocks: Sequence[Block], accepted: Terms, library: Sequence[Effect], alpha: float = 0.05
     ) -> None:
         self.blocks, self.accepted, self.library = tuple(blocks), accepted, tuple(library)
         self.scans = [Scan(block, terms) for block, terms in zip(blocks, accepted, strict=True)]
@@ -262,6 +266,11 @@ class Stage:
     def names(self) -> tuple[str, ...]:
         """Accepted effects in the order in which they were added."""
         return tuple(dict.fromkeys(t.effect.name for terms in self.accepted for t in terms))
+
+
+def _leaves_its_range(trial: Trial) -> bool:
+    excused = {"tension share"} if trial.site.kind == "tension" else set()
+    return bool(set(trial.fit.at_edge) - excused)
 
 
 def _worth_its_form(trial: Trial) -> float:

@@ -2,7 +2,7 @@ r"""From the search to one of five words, with sets instead of false winners and
 
 ::
 
-    gate: some log e > ln(K / alpha), K places and effects tried, alpha = 0.01
+    gate: some log e > ln(K / alpha), K places and effects tried, alpha = 0.05
     closed and no misfit that repeats share        none
     closed, but repeats share a misfit             unknown
     open: add the best; rivals within 5 nats       confusable (the set)

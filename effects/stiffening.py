@@ -4,7 +4,7 @@ r"""Stiffening: the section grows stiffer with the strain, and back again on the
            c = \varepsilon\,\frac{(\varepsilon/x)^2}{1 - (\varepsilon/x)^2}, \qquad
            c = \mathrm{sgn}(\varepsilon)\,\max(|\varepsilon| - x,\, 0)
 
-The cubic, p = 2, is the first term of every smooth law that is odd; the second locks at a strain x, as chains of finite
+The cubic, p = 2, is the first term of every smooth law that is odd, and p may be found from the data; the second locks at a strain x, as chains of finite
 length do; a sum of the third with strengths >= 0 is every convex law.
 Source: Duffing 1918; Gent, Rubber Chem. Technol. 69 (1996) 59-61.
 """
@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from effects.effect import BenchPath, Effect, Parameter, of_strain
+from effects.effect import BenchPath, Effect, Parameter, of_strain, of_values
 from effects.reversible_law import reversible_form
 
 Array = NDArray[np.float64]
@@ -32,6 +32,18 @@ LOCKING_STRAIN = Parameter(
     plausible=(1e-9, np.inf),
     source="beyond the largest strain that was reached (by definition)",
     starts=of_strain(1.03, 4.0, 10),
+)
+
+
+EXPONENT = Parameter(
+    "exponent",
+    "1",
+    "of the growth of the secant stiffness with strain; 2 for the cubic law",
+    low=0.1,
+    high=20.0,
+    plausible=(0.2, 10.0),
+    source="between a knee and a lock; general knowledge",
+    starts=of_values(0.5, 1.0, 1.5, 3.0, 5.0),
 )
 
 
@@ -56,6 +68,10 @@ def _powers(strain: Array, tension: Array, temperature: Array, reference: BenchP
 def _locking(strain: Array, tension: Array, temperature: Array, reference: BenchPath, x: float) -> Array:
     ratio = np.minimum((strain / x) ** 2, _NEAR_LOCK**2)
     return (strain * ratio / (1.0 - ratio))[:, None]
+
+
+def _power(strain: Array, tension: Array, temperature: Array, reference: BenchPath, exponent: float) -> Array:
+    return (strain * np.abs(strain / reference.largest) ** exponent)[:, None]
 
 
 def _knees(strain: Array, tension: Array, temperature: Array, reference: BenchPath) -> Array:
@@ -89,6 +105,14 @@ CONVEX = reversible_form(
         _strength(f"stiffening beyond {x:g}", f"stiffness added beyond {x:g} of the largest strain") for x in KNEES
     ),
 )
+POWER = reversible_form(
+    "power law",
+    _power,
+    shape=(EXPONENT,),
+    strength=(
+        _strength("power-law stiffening", "added stiffness at the largest strain (secant), over the linear one"),
+    ),
+)
 
 EFFECT = Effect(
     name="stiffening",
@@ -99,5 +123,5 @@ EFFECT = Effect(
     needs="at least two amplitudes, or one large one",
     signature="stiffness rises with amplitude, no loop, odd harmonics",
     kinds=("tension", "torsion", "bending", "shear"),
-    forms=(CUBIC, ODD_POWERS, LOCKING, CONVEX),
+    forms=(CUBIC, ODD_POWERS, LOCKING, CONVEX, POWER),
 )
