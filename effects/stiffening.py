@@ -4,7 +4,8 @@ r"""Stiffening: the section grows stiffer with the strain, and back again on the
            c = \varepsilon\,\frac{(\varepsilon/x)^2}{1 - (\varepsilon/x)^2}, \qquad
            c = \mathrm{sgn}(\varepsilon)\,\max(|\varepsilon| - x,\, 0)
 
-The cubic, p = 2, is the first term of every smooth law that is odd, and p may be found from the data; the second locks at a strain x, as chains of finite
+The cubic, p = 2, is the first term of every smooth law that is odd, and p may be found from the data; the
+second locks at a strain x, as chains of finite
 length do; a sum of the third with strengths >= 0 is every convex law.
 Source: Duffing 1918; Gent, Rubber Chem. Technol. 69 (1996) 59-61.
 """
