@@ -89,7 +89,7 @@ def find(name: str) -> Effect:
 
 
 def register(effect: Effect, *, replace: bool = False) -> Effect:
-    """Add an effect of your own to the library of this session, so that ``explain`` ranks it with the others.
+    """Add an effect of your own to the library of this Python process, so that ``explain`` ranks it with the others.
 
     Parameters
     ----------
