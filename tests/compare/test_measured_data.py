@@ -82,11 +82,13 @@ def test_the_strand_yields_but_thirteen_points_do_not_tell_the_place(tmp_path):
     """
     found = findings_of(strand.write(DATA, tmp_path))
     assert found.verdict in ("family-identified", "confusable")
-    leading = [c for c in found.ranking if c.log_e > c.needed]
+    leading = [
+        c for c in found.ranking if c.log_e > c.needed and c.share > 0.97
+    ]  # that explain it; an offset passes, with 2 %
     assert (
         {"grip-slip", "plasticity"} <= {c.effect for c in leading} <= {"grip-slip", "plasticity", "interlayer-friction"}
     )
-    assert all(c.share > 0.97 for c in leading)
+    assert all(c.share < 0.1 for c in found.ranking if c not in leading)
     assert found.noise_assumed
 
 
