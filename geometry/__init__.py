@@ -6,7 +6,7 @@ Names that need gmsh, meshio, matplotlib or pyvista load them only when they are
 from geometry.cable import Cable, MarkedNumber, Part, RotaryInertia
 from geometry.cable_file import BuiltinCable, builtin_cables, cable_files, read_cable
 from geometry.cable_table import Row, describe, marked_rows
-from geometry.cell_mesh import CrossSectionMesh, Region, SliceMesh
+from geometry.cell_mesh import CellBlock, CrossSectionMesh, Region, SliceMesh, SweptCell
 from geometry.clearance import Clearance, Member, clearances, helix_distance
 from geometry.cutaway_picture import draw_cutaway
 from geometry.errors import ConvergenceError, GeometryError, InputError, MeshError, SpecError
@@ -26,6 +26,7 @@ from geometry.wire_trace import WireTrace
 __all__ = [
     "BuiltinCable",
     "Cable",
+    "CellBlock",
     "CentreLine",
     "Clearance",
     "Conductor",
@@ -46,6 +47,7 @@ __all__ = [
     "Solid",
     "SpecError",
     "Strand",
+    "SweptCell",
     "WireTrace",
     "builtin_cables",
     "cable_files",

@@ -1,4 +1,4 @@
-"""The two meshes that leave this package: the cross-section (2D) and the helical slice (3D).
+"""The meshes that leave this package: the cross-section (2D), the helical slice and the swept cell (3D).
 
 Axes: z along the cable. The cross-section is the plane z = 0; at height z it stands turned by the angle
 ``twist_rate * z`` about z, twist_rate = 2 pi / pitch, positive for a right-handed (Z) lay, zero for a straight cable.
@@ -14,7 +14,16 @@ from numpy.typing import NDArray
 from geometry.errors import MeshError
 from geometry.material import Material
 
-NODES_PER_CELL = {"triangle": 3, "triangle6": 6, "quad": 4, "quad9": 9, "wedge": 6, "hexahedron": 8}
+NODES_PER_CELL = {
+    "triangle": 3,
+    "triangle6": 6,
+    "quad": 4,
+    "quad9": 9,
+    "wedge": 6,
+    "hexahedron": 8,
+    "pyramid": 5,
+    "tetra": 4,
+}
 
 
 @dataclass(frozen=True)
@@ -80,10 +89,63 @@ class SliceMesh:
 
     def matching_gap(self) -> float:
         """Largest distance [m] between a top node and the image of its bottom partner under the helical motion."""
-        angle = self.twist_rate * self.height
-        Q = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1.0]])
-        image = self.points[self.bottom] @ Q.T + [0.0, 0.0, self.height]
-        return float(np.linalg.norm(self.points[self.top] - image, axis=1).max())
+        return _matching_gap(self)
+
+
+@dataclass(frozen=True)
+class CellBlock:
+    """Cells of one kind: `kind` "hexahedron", "wedge", "pyramid" or "tetra"; `cells` (m, k) node numbers in meshio order;
+    `region_of` (m,) index into the regions of the mesh."""
+
+    kind: str
+    cells: NDArray[np.int64]
+    region_of: NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class SweptCell:
+    """Cell of a cable between z = 0 and z = `height` in which parts of several lays are swept; hexahedra, with pyramids and
+    tetrahedra where two sweeps slide past each other.
+
+    The end faces match node for node under the cell's motion x -> Q x + height e_z, Q = rotation by twist_rate * height:
+    node ``top[i]`` is the image of node ``bottom[i]``. A strand may continue as another strand of its conductor there.
+
+    Attributes
+    ----------
+    points : (n, 3) [m]
+    blocks : one for each kind of cell, hexahedra first
+    regions : `closed_form_area` is the exact volume over `height` [m^2]
+    bottom, top : (b,) matching node numbers
+    """
+
+    points: NDArray[np.float64]
+    blocks: tuple[CellBlock, ...]
+    regions: tuple[Region, ...]
+    twist_rate: float
+    height: float
+    bottom: NDArray[np.int64]
+    top: NDArray[np.int64]
+
+    def __post_init__(self) -> None:
+        if not self.blocks:
+            raise MeshError("a swept cell needs at least one block of cells.")
+        for block in self.blocks:
+            _check(self.points, block.cells, block.kind, block.region_of, self.regions, 3)
+
+    def matching_gap(self) -> float:
+        """Largest distance [m] between a top node and the image of its bottom partner under the cell's motion."""
+        return _matching_gap(self)
+
+    def count(self, kind: str) -> int:
+        """Number of cells of a kind; 0 if there are none."""
+        return sum(len(block.cells) for block in self.blocks if block.kind == kind)
+
+
+def _matching_gap(mesh: SliceMesh | SweptCell) -> float:
+    angle = mesh.twist_rate * mesh.height
+    Q = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1.0]])
+    image = mesh.points[mesh.bottom] @ Q.T + [0.0, 0.0, mesh.height]
+    return float(np.linalg.norm(mesh.points[mesh.top] - image, axis=1).max())
 
 
 def _check(
