@@ -21,7 +21,19 @@ from geometry.material import Material
 from geometry.strand import Conductor
 from geometry.wire_trace import WireTrace
 
-KINDS = ("conductor", "insulation", "screen", "cover", "interstices", "wrap", "sheath")
+KINDS = (
+    "conductor",
+    "insulation",
+    "screen",
+    "cover",
+    "interstices",
+    "armour",
+    "wire",
+    "bedding",
+    "tape",
+    "wrap",
+    "sheath",
+)
 
 
 class MarkedNumber(NamedTuple):
@@ -61,6 +73,7 @@ class Part:
         which they lie
     twist_rate : 2 pi / lay [rad/m], signed
     moments : (A, Sx, Sy, Sxx, Syy, Sxy) in the plane z = 0 [m^2 .. m^4]
+    conductor : name in ``Cable.conductors`` of its make-up; None for everything else
     """
 
     name: str
@@ -73,6 +86,7 @@ class Part:
     outer_radius: float
     twist_rate: float
     moments: tuple[float, ...]
+    conductor: str | None = None
 
     @property
     def area(self) -> float:
@@ -171,6 +185,20 @@ class Cable:
     def assumed(self) -> tuple[MarkedNumber, ...]:
         """The numbers that are assumptions: sweep these."""
         return tuple(number for number in self.numbers if number.status == "assumed")
+
+    @property
+    def lays(self) -> tuple[float, ...]:
+        """Signed twist rates [rad/m] that differ among the parts off the axis, in their order; round layers have none."""
+        return tuple(dict.fromkeys(part.twist_rate for part in self.parts if part.centre_radius > 0))
+
+    @property
+    def single_lay(self) -> bool:
+        """Whether all parts off the axis turn at one rate, so that one section, turned, is the whole cable."""
+        return len(self.lays) <= 1
+
+    def conductor_of(self, part: Part) -> Conductor | None:
+        """Make-up of the conductor that a part is; None for every other part."""
+        return None if part.conductor is None else self.conductors[part.conductor]
 
     def part(self, name: str) -> Part:
         """The part of that name; KeyError if there is none."""

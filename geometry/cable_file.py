@@ -220,7 +220,7 @@ def _conductor(name: str, spec: StrandedTable | CylinderTable, strands: Mapping[
 
 def _core(name: str, spec: CoreTable, conductors: Mapping[str, Conductor], materials: Mapping[str, Material]) -> Round:
     conductor = _named(conductors, spec.conductor, f"cores.{name}.conductor", "conductors")
-    layers = [Layer("conductor", conductor.material, conductor.diameter / 2)]
+    layers = [Layer("conductor", conductor.material, conductor.diameter / 2, conductor.name)]
     insulation = _named(materials, spec.insulation_material, f"cores.{name}.insulation_material", "materials")
     layers.append(Layer("insulation", insulation, layers[-1].outer_radius + _si(spec.insulation_wall)))
     if _together(spec.screen_wall, spec.screen_material, f"cores.{name}", "screen"):
@@ -234,7 +234,7 @@ def _centre(table: CableTable, conductors: Mapping[str, Conductor], materials: M
     if spec is None:
         return None
     conductor = _named(conductors, spec.conductor, "centre.conductor", "conductors")
-    layers = [Layer("conductor", conductor.material, conductor.diameter / 2)]
+    layers = [Layer("conductor", conductor.material, conductor.diameter / 2, conductor.name)]
     if _together(spec.cover_wall, spec.cover_material, "centre", "cover"):
         cover = _named(materials, str(spec.cover_material), "centre.cover_material", "materials")
         layers.append(Layer("cover", cover, layers[-1].outer_radius + (_maybe(spec.cover_wall) or 0.0)))

@@ -20,11 +20,12 @@ from geometry.material import Material
 
 @dataclass(frozen=True)
 class Layer:
-    """One ring of a round member: its kind, material and outer radius [m]."""
+    """One ring of a round member: its kind, material, outer radius [m], and the name of its conductor if it is one."""
 
     kind: str
     material: Material
     outer_radius: float
+    conductor: str | None = None
 
 
 @dataclass(frozen=True)
@@ -146,6 +147,7 @@ def _ring_parts(member: Round, centre_radius: float, phase: float, twist_rate: f
                 layer.outer_radius,
                 twist_rate,
                 moments,
+                layer.conductor,
             )
         )
         inner = layer.outer_radius
