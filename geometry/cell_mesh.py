@@ -58,6 +58,11 @@ class CrossSectionMesh:
     def __post_init__(self) -> None:
         _check(self.points, self.cells, self.cell_kind, self.region_of, self.regions, 2)
 
+    @property
+    def blocks(self) -> tuple[CellBlock, ...]:
+        """The cells as one block, as a swept cell gives them."""
+        return (CellBlock(self.cell_kind, self.cells, self.region_of),)
+
 
 @dataclass(frozen=True)
 class SliceMesh:
@@ -86,6 +91,11 @@ class SliceMesh:
 
     def __post_init__(self) -> None:
         _check(self.points, self.cells, self.cell_kind, self.region_of, self.regions, 3)
+
+    @property
+    def blocks(self) -> tuple[CellBlock, ...]:
+        """The cells as one block, as a swept cell gives them."""
+        return (CellBlock(self.cell_kind, self.cells, self.region_of),)
 
     def matching_gap(self) -> float:
         """Largest distance [m] between a top node and the image of its bottom partner under the helical motion."""

@@ -5,20 +5,26 @@ The scaled Jacobian of an element is the smallest over its corners of
 .. math::  \det(e_1, \dots, e_d) / (|e_1| \cdots |e_d|),
 
 e_k the edges that leave the corner, divided by its value for the regular element (sqrt 3 / 2 for triangles and
-wedges, 1 for quadrilaterals and hexahedra); 1 is perfect, 0 flat, negative inside out. Definition as in
-Stimpson et al., The Verdict Geometric Quality Library, Sandia report SAND2007-1751. For curved elements it is that of their corners.
-Sizes (area or volume) are integrated by Gauss rules that are exact for the element.
+wedges, 1 for quadrilaterals and hexahedra, 1 / sqrt 2 for tetrahedra); 1 is perfect, 0 flat, negative inside out. Definition
+as in Stimpson et al., The Verdict Geometric Quality Library, Sandia report SAND2007-1751. Four edges meet at the apex of a
+pyramid, so that only the corners of its base count, divided by 1 / sqrt 2, their value for the pyramid of eight equal edges;
+slender pyramids, which would come out above 1, count as 1. For curved elements it is the scaled Jacobian of their corners.
+
+Sizes (area or volume) are integrated by Gauss rules that are exact for the element (reference_gradients.py).
 """
 
 from __future__ import annotations
 
-import itertools
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.cell_mesh import CrossSectionMesh, SliceMesh
+from geometry.cell_mesh import CrossSectionMesh, SliceMesh, SweptCell
+from geometry.errors import MeshError
+from geometry.reference_gradients import reference_gradients
 
+AnyMesh = CrossSectionMesh | SliceMesh | SweptCell
 CORNERS = {
     "triangle": [(0, 1, 2), (1, 2, 0), (2, 0, 1)],
     "quad": [(0, 1, 3), (1, 2, 0), (2, 3, 1), (3, 0, 2)],
@@ -33,101 +39,102 @@ CORNERS = {
         (6, 5, 7, 2),
         (7, 6, 4, 3),
     ],
+    "pyramid": [(0, 1, 3, 4), (1, 2, 0, 4), (2, 3, 1, 4), (3, 0, 2, 4)],
+    "tetra": [(0, 1, 2, 3), (1, 2, 0, 3), (2, 0, 1, 3), (3, 0, 2, 1)],
 }
 LINEAR = {"triangle6": "triangle", "quad9": "quad"}
-REGULAR = {"triangle": np.sqrt(3) / 2, "quad": 1.0, "wedge": np.sqrt(3) / 2, "hexahedron": 1.0}
-GAUSS3 = np.array([-np.sqrt(0.6), 0.0, np.sqrt(0.6)]), np.array([5.0, 8.0, 5.0]) / 9
-TRIANGLE = np.array([[1 / 6, 1 / 6], [2 / 3, 1 / 6], [1 / 6, 2 / 3]]), np.full(3, 1 / 6)
+REGULAR = {
+    "triangle": np.sqrt(3) / 2,
+    "quad": 1.0,
+    "wedge": np.sqrt(3) / 2,
+    "hexahedron": 1.0,
+    "pyramid": np.sqrt(0.5),
+    "tetra": np.sqrt(0.5),
+}
+AT_ONCE = 20_000
+"""Elements taken together: large enough for numpy, small enough for the processor's cache."""
 
 
-def scaled_jacobian(mesh: CrossSectionMesh | SliceMesh) -> NDArray[np.float64]:
-    """Scaled Jacobian of every element, shape (m,)."""
-    kind = LINEAR.get(mesh.cell_kind, mesh.cell_kind)
-    corners = mesh.points[mesh.cells]
-    worst = np.full(len(corners), np.inf)
-    for first, *others in CORNERS[kind]:
-        edges = np.stack([corners[:, k] - corners[:, first] for k in others], axis=1)
-        worst = np.minimum(worst, np.linalg.det(edges) / np.prod(np.linalg.norm(edges, axis=2), axis=1))
-    return worst / REGULAR[kind]
+def scaled_jacobian(mesh: AnyMesh) -> NDArray[np.float64]:
+    """Scaled Jacobian of every element, shape (m,); of a swept cell one block after the other."""
+    return np.concatenate([block_quality(mesh.points, block.cells, block.kind) for block in mesh.blocks])
 
 
-def element_sizes(mesh: CrossSectionMesh | SliceMesh) -> NDArray[np.float64]:
-    """Area [m^2] or volume [m^3] of every element, shape (m,); negative if inside out."""
-    gradients, weights = _reference(mesh.cell_kind)
-    sizes = np.zeros(len(mesh.cells))
-    for gradient, weight in zip(gradients, weights, strict=True):
-        jacobian = np.einsum("eax,ad->exd", mesh.points[mesh.cells], gradient)
-        sizes += weight * np.linalg.det(jacobian)
+def block_quality(points: NDArray[np.float64], cells: NDArray[np.int64], kind: str) -> NDArray[np.float64]:
+    """Scaled Jacobian of the `cells` (m, nodes) of one `kind`, shape (m,)."""
+    kind = LINEAR.get(kind, kind)
+    quality = np.empty(len(cells))
+    for part in _parts(len(cells)):
+        nodes = points[cells[part]]
+        worst = np.full(len(nodes), np.inf)
+        for first, *others in CORNERS[kind]:
+            edges = [nodes[:, k] - nodes[:, first] for k in others]
+            lengths = np.sqrt(np.prod([np.einsum("ed,ed->e", e, e) for e in edges], axis=0))
+            with np.errstate(divide="ignore", invalid="ignore"):
+                worst = np.minimum(worst, np.where(lengths > 0, _determinant(edges) / lengths, 0.0))
+        quality[part] = np.minimum(worst / REGULAR[kind], 1.0)
+    return quality
+
+
+def element_sizes(mesh: AnyMesh) -> NDArray[np.float64]:
+    """Area [m^2] or volume [m^3] of every element, shape (m,); negative if inside out; block after block."""
+    return np.concatenate([block_sizes(mesh.points, block.cells, block.kind) for block in mesh.blocks])
+
+
+def block_sizes(points: NDArray[np.float64], cells: NDArray[np.int64], kind: str) -> NDArray[np.float64]:
+    """Area [m^2] or volume [m^3] of the `cells` (m, nodes) of one `kind`, shape (m,)."""
+    gradients, weights = reference_gradients(kind)
+    sizes = np.zeros(len(cells))
+    for part in _parts(len(cells)):
+        nodes = points[cells[part]]
+        for gradient, weight in zip(gradients, weights, strict=True):
+            columns = [np.tensordot(nodes, g, axes=(1, 0)) for g in gradient.T]
+            sizes[part] += weight * _determinant(columns)
     return sizes
 
 
-def region_sizes(mesh: CrossSectionMesh | SliceMesh) -> NDArray[np.float64]:
+def region_sizes(mesh: AnyMesh) -> NDArray[np.float64]:
     """Area [m^2] or volume [m^3] of every region, in the order of ``mesh.regions``."""
-    sizes = np.zeros(len(mesh.regions))
-    np.add.at(sizes, mesh.region_of, element_sizes(mesh))
-    return sizes
+    region_of = np.concatenate([block.region_of for block in mesh.blocks])
+    return np.bincount(region_of, weights=element_sizes(mesh), minlength=len(mesh.regions))
 
 
-def _reference(kind: str) -> tuple[list[NDArray[np.float64]], list[float]]:
-    """Shape-function gradients (nodes, dim) and weights at the Gauss points."""
-    if kind in ("triangle", "triangle6"):
-        gradient = _triangle if kind == "triangle" else _triangle6
-        return [gradient(*p) for p in TRIANGLE[0]], list(TRIANGLE[1])
-    if kind == "wedge":
-        points = [(p, z, w * wz) for (p, w) in zip(*TRIANGLE, strict=True) for z, wz in zip(*GAUSS3, strict=True)]
-        return [_wedge(p[0], p[1], z) for p, z, _ in points], [w for *_, w in points]
-    nodes = {"quad": 4, "quad9": 9, "hexahedron": 8}[kind]
-    dim = 3 if kind == "hexahedron" else 2
-    grid = list(itertools.product(zip(*GAUSS3, strict=True), repeat=dim))
-    return (
-        [_tensor(np.array([x for x, _ in g]), nodes) for g in grid],
-        [float(np.prod([w for _, w in g])) for g in grid],
-    )
+def quality_histogram(mesh: AnyMesh, bins: int = 10) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Number of elements by scaled Jacobian.
+
+    Returns
+    -------
+    counts : (bins + 1,)
+        First the elements that are inside out, then those in `bins` equal steps from 0 to 1.
+    edges : (bins + 2,)
+        -1, 0, ..., 1; a value on an edge counts above it.
+
+    Raises
+    ------
+    MeshError
+        If `bins` is not positive.
+    """
+    if bins < 1:
+        raise MeshError(f"a histogram needs at least one bin, found {bins}.")
+    edges = np.concatenate([[-1.0], np.linspace(0.0, 1.0, bins + 1)])
+    counts, _ = np.histogram(np.clip(scaled_jacobian(mesh), -1.0, 1.0), edges)
+    return counts.astype(np.int64), edges
 
 
-def _triangle(r: float, s: float) -> NDArray[np.float64]:
-    return np.array([[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]])
+def share_below(mesh: AnyMesh, quality: float = 0.2) -> float:
+    """Share of the elements, by number, whose scaled Jacobian is below `quality`."""
+    return float((scaled_jacobian(mesh) < quality).mean())
 
 
-def _triangle6(r: float, s: float) -> NDArray[np.float64]:
-    t = 1 - r - s
-    return np.array(
-        [
-            [1 - 4 * t, 1 - 4 * t],
-            [4 * r - 1, 0],
-            [0, 4 * s - 1],
-            [4 * (t - r), -4 * r],
-            [4 * s, 4 * r],
-            [-4 * s, 4 * (t - s)],
-        ]
-    )
+def _parts(count: int) -> Iterator[slice]:
+    return (slice(start, start + AT_ONCE) for start in range(0, count, AT_ONCE))
 
 
-def _wedge(r: float, s: float, z: float) -> NDArray[np.float64]:
-    shape, slope = np.array([1 - r - s, r, s], dtype=float), _triangle(r, s)
-    low, high = (1 - z) / 2, (1 + z) / 2
-    return np.vstack([np.column_stack([low * slope, -shape / 2]), np.column_stack([high * slope, shape / 2])])
-
-
-def _tensor(x: NDArray[np.float64], nodes: int) -> NDArray[np.float64]:
-    """Lagrange elements on [-1, 1]^d in gmsh/meshio order."""
-    places = {
-        4: [(-1, -1), (1, -1), (1, 1), (-1, 1)],
-        9: [(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0), (0, 0)],
-        8: [(-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)],
-    }[nodes]
-    one = _quadratic if nodes == 9 else _linear
-    table = np.empty((nodes, len(x)))
-    for a, place in enumerate(places):
-        values = [one(position, xi) for position, xi in zip(place, x, strict=True)]
-        for d in range(len(x)):
-            table[a, d] = np.prod([value[1 if k == d else 0] for k, value in enumerate(values)])
-    return table
-
-
-def _linear(position: float, x: float) -> tuple[float, float]:
-    return (1 + position * x) / 2, position / 2
-
-
-def _quadratic(position: float, x: float) -> tuple[float, float]:
-    return (1 - x * x, -2 * x) if position == 0 else (x * (x + position) / 2, x + position / 2)
+def _determinant(columns: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """det of the 2 x 2 or 3 x 3 matrices whose columns (or rows) are given as arrays (m, d)."""
+    if len(columns) == 2:
+        (a, b), (c, d) = columns[0].T, columns[1].T
+        return a * d - b * c
+    a, (x, y, z) = columns[0].T, columns[1].T
+    u, v, w = columns[2].T
+    return a[0] * (y * w - z * v) + a[1] * (z * u - x * w) + a[2] * (x * v - y * u)
