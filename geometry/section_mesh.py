@@ -1,7 +1,8 @@
 """Mesh of the cross-section z = 0 with gmsh: every part a region, nodes shared on every interface.
 
 Regions come from gmsh's surface tags, never from centroids. All nodes on an outline, mid-side nodes included, are put on
-the exact curve (wire_trace.py). Contacts between round parts are closed as section_outline.py says.
+the exact curve (wire_trace.py); those of first-order elements beside it, so that the area is exact (area_true_curve.py).
+Contacts between round parts are closed as section_outline.py says.
 
 The mesh size is `size` in the bulk and smaller where the section asks for it: four times the thickness along
 thin layers, five gap widths in necks. These factors shrink with `size`, so that halving it refines everywhere.
@@ -15,12 +16,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.area_true_curve import area_true_points
 from geometry.cable import Cable
 from geometry.cell_mesh import CrossSectionMesh, Region
 from geometry.errors import MeshError
 from geometry.gmsh_session import gmsh_session
 from geometry.mesh_quality import element_sizes, scaled_jacobian
 from geometry.section_outline import SectionOutline, section_outline
+from geometry.wire_trace import WireTrace
 
 KINDS = {"triangle": 1, "triangle6": 2, "quad": 1, "quad9": 2}
 GMSH_TYPE = {"triangle": 2, "triangle6": 9, "quad": 3, "quad9": 10}
@@ -29,6 +32,8 @@ DEFAULT_SIZE = 1 / 26
 LARGEST = 2e7
 MOST_EDGES = 10_000
 """Edges round one thin layer."""
+LARGEST_MOVE = 0.1
+"""Of the thinnest layer beside a curve: how far area-true corners may leave it."""
 GOOD_ENOUGH = 0.15
 """Smallest scaled Jacobian at which no other recipe is tried."""
 QUAD_RECIPES: list[Mapping[str, float]] = [
@@ -212,13 +217,14 @@ def _read(
     row = np.zeros(int(tags.max()) + 1, dtype=np.int64)
     row[tags.astype(np.int64)] = np.arange(len(tags))
     points = xyz.reshape(-1, 3)[:, :2].copy()
-    for tag, number in curve_tags.items():
-        if number >= 0:
-            nodes, _, _ = gmsh.model.mesh.getNodes(1, tag, includeBoundary=False)
-            if len(nodes):
-                rows = row[nodes.astype(np.int64)]
-                curve = outline.curves[number]
-                points[rows] = curve.point(curve.nearest(points[rows]))
+    for number, curve in enumerate(outline.curves):
+        edges = _edges_on_curve(gmsh, [tag for tag, on in curve_tags.items() if on == number], row)
+        rows, ends = np.unique(edges, return_inverse=True)
+        if len(rows) and KINDS[kind] == 2:
+            points[rows] = curve.point(curve.nearest(points[rows]))
+        elif len(rows):
+            ends = ends.reshape(-1, 2)
+            points[rows] = area_true_points(curve, points[rows], ends, LARGEST_MOVE * _thinnest_wall(cable, curve))
     width = {"triangle": 3, "triangle6": 6, "quad": 4, "quad9": 9}[kind]
     cells, region_of = [], []
     names = [part.name for part in cable.parts]
@@ -234,6 +240,21 @@ def _read(
             region_of.append(np.full(len(block), names.index(name), dtype=np.int64))
     used, compact = np.unique(np.vstack(cells), return_inverse=True)
     return points[used], compact.reshape(-1, width), np.concatenate(region_of)
+
+
+def _edges_on_curve(gmsh: Any, tags: list[int], row: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Rows of the nodes of all line elements on the pieces of a curve, (m, 2) or (m, 3) with the mid-side node."""
+    found = [gmsh.model.mesh.getElements(1, tag) for tag in tags]
+    blocks = [
+        row[nodes[0].astype(np.int64)].reshape(len(elements[0]), -1) for _, elements, nodes in found if len(elements)
+    ]
+    return np.vstack(blocks) if blocks else np.zeros((0, 2), dtype=np.int64)
+
+
+def _thinnest_wall(cable: Cable, curve: WireTrace) -> float:
+    """Thickness of the thinnest layer beside a curve [m]; its radius if there is none."""
+    walls = [part.outer_radius - part.inner_radius for part in cable.parts if curve in (part.inner_trace, part.outer_trace)]
+    return min([curve.radius, *walls])
 
 
 def _checked(
