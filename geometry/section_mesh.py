@@ -43,7 +43,9 @@ QUAD_RECIPES: list[Mapping[str, float]] = [
 ]
 
 
-def cross_section_mesh(cable: Cable, size: float | None = None, kind: str = "triangle6") -> CrossSectionMesh:
+def cross_section_mesh(
+    cable: Cable, size: float | None = None, kind: str = "triangle6", holes: Mapping[str, NDArray] | None = None
+) -> CrossSectionMesh:
     """Mesh the section z = 0 of a cable.
 
     Parameters
@@ -53,6 +55,8 @@ def cross_section_mesh(cable: Cable, size: float | None = None, kind: str = "tri
         Edge length in the bulk [m]; None takes 1/26 of the outer diameter (2.0 mm for the reference cable, about 28 000
         displacement unknowns with "triangle6").
     kind : "triangle6" (default), "triangle", "quad" or "quad9"
+    holes : parts to leave empty, by name, with the angles of the corners round each hole, growing within one turn; every edge
+        between two corners is halved for quadrilaterals
 
     Returns
     -------
@@ -75,11 +79,13 @@ def cross_section_mesh(cable: Cable, size: float | None = None, kind: str = "tri
     _check_request(cable, size, kind)
     quads = kind.startswith("quad")
     coarse = 2 * size if quads else size  # quadrilaterals come from halving every edge of a coarser mesh
-    outline = section_outline(cable, neck_below=coarse)
+    corners = {cable.part(name).outer_trace: angles for name, angles in (holes or {}).items()}
+    outline = section_outline(cable, neck_below=coarse, cuts=corners)
+    outline.faces = {name: faces for name, faces in outline.faces.items() if name not in (holes or {})}
     best: CrossSectionMesh | None = None
     quality = -np.inf
     for recipe in QUAD_RECIPES if quads else [{"Algorithm": 6}]:
-        mesh = _meshed(cable, outline, coarse, kind, recipe)
+        mesh = _meshed(cable, outline, coarse, kind, recipe, corners)
         worst = float(scaled_jacobian(mesh).min())
         if worst > quality:
             best, quality = mesh, worst
@@ -90,7 +96,12 @@ def cross_section_mesh(cable: Cable, size: float | None = None, kind: str = "tri
 
 
 def _meshed(
-    cable: Cable, outline: SectionOutline, size: float, kind: str, recipe: Mapping[str, float]
+    cable: Cable,
+    outline: SectionOutline,
+    size: float,
+    kind: str,
+    recipe: Mapping[str, float],
+    corners: Mapping[WireTrace, NDArray],
 ) -> CrossSectionMesh:
     """One run of gmsh; `recipe` holds the Mesh options that differ between runs."""
     options = {
@@ -109,7 +120,7 @@ def _meshed(
     }
     with gmsh_session(cable.name) as gmsh:
         curve_tags, surfaces = _build(gmsh, outline)
-        _set_sizes(gmsh, cable, outline, curve_tags, size)
+        _set_sizes(gmsh, cable, outline, curve_tags, size, corners)
         for option, value in (options | dict(recipe)).items():
             gmsh.option.setNumber(f"Mesh.{option}", value)
         gmsh.model.mesh.generate(2)
@@ -176,8 +187,18 @@ def _build(gmsh: Any, outline: SectionOutline) -> tuple[dict[int, int], dict[str
     return curve_tags, surfaces
 
 
-def _set_sizes(gmsh: Any, cable: Cable, outline: SectionOutline, curve_tags: dict[int, int], size: float) -> None:
-    """Mesh size as the smallest of gmsh fields: one per neck, one per curve (thickness of the layers beside it)."""
+def _set_sizes(
+    gmsh: Any,
+    cable: Cable,
+    outline: SectionOutline,
+    curve_tags: dict[int, int],
+    size: float,
+    corners: Mapping[WireTrace, NDArray],
+) -> None:
+    """Mesh size as the smallest of gmsh fields: one per neck, one per curve (thickness of the layers beside it).
+
+    Each piece of a curve with prescribed `corners` is one edge.
+    """
     fineness = min(1.0, size / (cable.outer_diameter * DEFAULT_SIZE))
     along = [min(size, fineness * 2 * np.pi * curve.radius / 18) for curve in outline.curves]
     for part in cable.parts:
@@ -186,6 +207,11 @@ def _set_sizes(gmsh: Any, cable: Cable, outline: SectionOutline, curve_tags: dic
             for number, curve in enumerate(outline.curves):
                 if curve in (part.inner_trace, part.outer_trace):
                     along[number] = min(along[number], 4.0 * fineness * wall)
+    for curve, angles in corners.items():
+        number = outline.curves.index(curve)
+        along[number] = 2 * np.pi * curve.radius / len(angles)
+        for tag in (tag for tag, other in curve_tags.items() if other == number):
+            gmsh.model.mesh.setTransfiniteCurve(tag, 2)
     field = gmsh.model.mesh.field
     fields = []
     for number, h in enumerate(along):

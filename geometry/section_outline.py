@@ -7,7 +7,7 @@ The loops follow from one rule: a piece is walked with the face on its left, and
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -17,6 +17,8 @@ from geometry.cable import Cable, Part
 from geometry.contact_closure import Contact, Neck, find_closures
 from geometry.errors import MeshError
 from geometry.wire_trace import WireTrace
+
+QUARTERS = np.linspace(0, 2 * np.pi, 5)[:-1]
 
 
 @dataclass(frozen=True)
@@ -52,12 +54,15 @@ class SectionOutline:
         return self.curves[edge.curve].point(np.linspace(edge.start, edge.end, count))
 
 
-def section_outline(cable: Cable, neck_below: float) -> SectionOutline:
+def section_outline(
+    cable: Cable, neck_below: float, cuts: Mapping[WireTrace, NDArray[np.float64]] | None = None
+) -> SectionOutline:
     """Outline of all parts of a cable.
 
     Parameters
     ----------
     neck_below : gaps narrower than this [m] are listed as necks, so that the mesh can be refined there
+    cuts : angles at which to cut curves that touch nothing, growing within one turn
 
     Raises
     ------
@@ -80,7 +85,7 @@ def section_outline(cable: Cable, neck_below: float) -> SectionOutline:
         hosts = cores + [outer] + ([centre] if centre is not None else [])
         areas = {number: _host_area(cable, curves[number]) for number in hosts}
         contacts, outline.necks = find_closures(curves, cores, centre, outer, areas, neck_below)
-    pieces = _cut(outline, contacts)
+    pieces = _cut(outline, contacts, cuts or {})
     bridges = _bridges(outline, contacts, pieces)
     _ring_faces(outline, rings, index, zone, contacts, pieces, bridges)
     if zone and any(part.kind == "interstices" for part in cable.parts):
@@ -118,7 +123,9 @@ def _host_area(cable: Cable, curve: WireTrace) -> float:
     raise MeshError("no part lies along a curve of the section.")
 
 
-def _cut(outline: SectionOutline, contacts: list[Contact]) -> dict[int, list[tuple[int, int | None, bool]]]:
+def _cut(
+    outline: SectionOutline, contacts: list[Contact], cuts: Mapping[WireTrace, NDArray[np.float64]]
+) -> dict[int, list[tuple[int, int | None, bool]]]:
     """Cut every curve at the closure ends; per curve its pieces in ccw order: (edge, closure it bounds or None, removed)."""
     pieces: dict[int, list[tuple[int, int | None, bool]]] = {}
     for number, curve in enumerate(outline.curves):
@@ -131,7 +138,7 @@ def _cut(outline: SectionOutline, contacts: list[Contact]) -> dict[int, list[tup
         spans = sorted(
             (start % (2 * np.pi), start % (2 * np.pi) + end - start, c, removed) for start, end, c, removed in spans
         )
-        pieces[number] = _pieces_of(outline, number, curve, spans)
+        pieces[number] = _pieces_of(outline, number, curve, spans, cuts.get(curve, QUARTERS))
     return pieces
 
 
@@ -142,7 +149,11 @@ def _short_way(start: float, end: float) -> tuple[float, float]:
 
 
 def _pieces_of(
-    outline: SectionOutline, number: int, curve: WireTrace, spans: list[tuple[float, float, int, bool]]
+    outline: SectionOutline,
+    number: int,
+    curve: WireTrace,
+    spans: list[tuple[float, float, int, bool]],
+    otherwise: NDArray[np.float64],
 ) -> list[tuple[int, int | None, bool]]:
     cuts: list[tuple[float, int | None, bool]] = []  # angle at which a piece begins, closure, removed
     for k, (start, end, c, removed) in enumerate(spans):
@@ -152,7 +163,7 @@ def _pieces_of(
         cuts += [(start, c, removed), (end, None, False)]
         cuts += [(float(x), None, False) for x in np.linspace(end, following, _parts_of(following - end) + 1)[1:-1]]
     if not spans:
-        cuts = [(float(x), None, False) for x in np.linspace(0, 2 * np.pi, 5)[:-1]]
+        cuts = [(float(x), None, False) for x in otherwise]
     first = len(outline.vertices)
     outline.vertices += [curve.point(angle) for angle, *_ in cuts]
     found: list[tuple[int, int | None, bool]] = []
