@@ -23,9 +23,10 @@ from geometry import cross_section_mesh, helical_slice, read_cable
 from geometry.cell_mesh import SliceMesh
 from homogenize import periodic_cell, solve_periodic_cell
 from homogenize.element_basis import _NODE_ORDER
-from homogenize.helical_cell import _gauge, _Pencil, _Solver, solve_helical_cell
+from homogenize.helical_cell import solve_helical_cell
 from homogenize.mean_dilatation import stiffness_matrix
 from homogenize.section_field import section_field
+from homogenize.section_problem import SectionPencil, SectionSolver, gauge_unknowns
 
 CABLE = "mcpt-1.9-3.3-3x35"
 
@@ -53,8 +54,8 @@ def plane_cell() -> None:
         def real_cases(mesh=mesh):
             field = section_field(mesh)
             E0, E1, E2 = field.matrices()
-            pencil = _Pencil(E0, E1.T - E1, E1, E2, field.rigid_motion(), field.area**0.5)
-            solver = _Solver(pencil, 0.0, _gauge(field.nodes, np.ones(field.nodes.shape[1], dtype=bool)))
+            pencil = SectionPencil(E0, E1.T - E1, E1, E2, field.rigid_motion(), field.area**0.5)
+            solver = SectionSolver(pencil, 0.0, gauge_unknowns(field.nodes, np.ones(field.nodes.shape[1], dtype=bool)))
             return [solver.solve(np.zeros(field.unknowns), np.eye(6)[i]) for i in (2, 5)]
 
         two, _ = timed(real_cases)

@@ -29,21 +29,18 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-import scipy.sparse.linalg as spla
 from numpy.typing import NDArray
 
 from geometry.cell_mesh import CrossSectionMesh
-from geometry.errors import ConvergenceError, SpecError
-from homogenize.section_field import FloatArray, SectionField, section_field
+from homogenize.interface_choice import Interfaces
+from homogenize.section_field import FloatArray, SectionField
+from homogenize.section_problem import REACTION_LIMIT, SectionPencil, SectionSolver
 from homogenize.section_stiffness import SectionStiffness
-from homogenize.sliding_interface import sliding_field
+from homogenize.section_system import INTERFACES, section_system
 
 ComplexArray = NDArray[np.complex128]
 
-INTERFACES = ("bonded", "frictionless")
-
-REACTION_LIMIT = 1e-6
-"""Largest allowed reaction of the pinned unknowns, relative to the largest nodal force of the same load."""
+__all__ = ["INTERFACES", "REACTION_LIMIT", "HelicalCell", "solve_helical_cell"]
 
 
 @dataclass(frozen=True)
@@ -57,7 +54,8 @@ class HelicalCell:
     X, V : (3n, 6) warping and axial derivative of the displacement per unit section force
     X_shear, V_shear : (3n, 2) the same per unit mean shear stress xz and yz, see :mod:`homogenize.volume_average`
     reaction : largest relative reaction of the pinned unknowns (a check of equilibrium)
-    interface : "bonded" or "frictionless"
+    interface : "bonded", "frictionless", or the interfaces in words
+    free_motions : motions of parts that cost nothing and were held, in words
     """
 
     field: SectionField
@@ -68,6 +66,7 @@ class HelicalCell:
     V_shear: FloatArray
     reaction: float
     interface: str = "bonded"
+    free_motions: tuple[str, ...] = ()
 
     def strain(self, section_forces: FloatArray) -> FloatArray:
         """Local strain, shape (e, q, 6), order xx yy zz yz xz xy, under section forces (6,) in the rotating frame."""
@@ -83,27 +82,16 @@ class HelicalCell:
         return self.field.strain(self.X_shear, self.V_shear)
 
 
-@dataclass(frozen=True)
-class _Pencil:
-    """The matrices of the section problem."""
-
-    E0: sp.csr_array
-    skew: sp.csr_array  # E1^T - E1
-    E1: sp.csr_array
-    E2: sp.csr_array
-    Z: FloatArray
-    length: float  # square root of the area: turns a force of uniform strain into a nodal force for comparison
-
-
-def solve_helical_cell(mesh: CrossSectionMesh, interface: str = "bonded") -> HelicalCell:
+def solve_helical_cell(mesh: CrossSectionMesh, interface: str | Interfaces = "bonded") -> HelicalCell:
     """Stiffness of the beam section equivalent to a long helical cable.
 
     Parameters
     ----------
     mesh : CrossSectionMesh
         Cross-section with its regions, materials and twist rate.
-    interface : str
-        ``"bonded"``, or ``"frictionless"``: the conductors slide in what surrounds them, without friction and without opening.
+    interface : str or Interfaces
+        ``"bonded"``; ``"frictionless"``: the conductors slide in what surrounds them, without friction and without opening; or
+        :class:`~homogenize.interface_choice.Interfaces`, which names the parts that slide and the law of each interface.
 
     Returns
     -------
@@ -113,44 +101,26 @@ def solve_helical_cell(mesh: CrossSectionMesh, interface: str = "bonded") -> Hel
     Raises
     ------
     SpecError
-        If the interface is not known.
+        If the interface is not known, or its law depends on the history of the load.
+    MeshError
+        If the interface names parts that are not there or do not touch, or a part touches nothing.
     ConvergenceError
-        If the linear solution is not in equilibrium, for instance because a part is not connected to the rest.
+        If the linear solution is not in equilibrium.
     """
-    if interface not in INTERFACES:
-        raise SpecError(f'the interface "{interface}" is not known; choose {" or ".join(INTERFACES)}.')
-    field = section_field(mesh)
-    tau = mesh.twist_rate
-    if interface == "bonded":
-        T, Z, pins = None, field.rigid_motion(), ()
-        gauge = _gauge(field.nodes, np.ones(field.nodes.shape[1], dtype=bool))
-    else:
-        parts = sliding_field(field, mesh)
-        gauge = _gauge(field.nodes, parts.anchored)
-        field, T, Z, pins = parts.field, parts.T, parts.Z, parts.slip_pins
-    E0, E1, E2 = field.matrices()
-    if T is not None:
-        E0, E1, E2 = (sp.csr_array(T.T @ E @ T) for E in (E0, E1, E2))
-    pencil = _Pencil(E0, sp.csr_array(E1.T - E1), E1, E2, Z, field.area**0.5)
-    axial = _Solver(pencil, 0.0, (*gauge, *pins))
-    harmonic = axial if tau == 0.0 else _Solver(pencil, 1j * tau, gauge)
+    system = section_system(mesh, interface)
+    pencil, T, tau = system.pencil, system.T, mesh.twist_rate
+    axial = SectionSolver(pencil, 0.0, (*system.gauge, *system.slip_pins))
+    harmonic = axial if tau == 0.0 else SectionSolver(pencil, 1j * tau, system.gauge)
     loads, reaction = _solve_loads(axial, harmonic)
     X, V = _real_columns(loads, pencil.Z)
-    X_shear, V_shear, shear_reaction = _solve_uniform_shear(field, harmonic, T)
+    X_shear, V_shear, shear_reaction = _solve_uniform_shear(system.field, harmonic, T)
     C = np.linalg.inv(_compliance(pencil, X, V))
-    stiffness = SectionStiffness(0.5 * (C + C.T), field.area)
+    stiffness = SectionStiffness(0.5 * (C + C.T), system.field.area)
     if T is not None:
         X, V, X_shear, V_shear = (T @ u for u in (X, V, X_shear, V_shear))
-    return HelicalCell(field, stiffness, X, V, X_shear, V_shear, max(reaction, shear_reaction), interface)
-
-
-def _gauge(nodes: FloatArray, usable: NDArray[np.bool_]) -> tuple[int, ...]:
-    """Six unknowns to pin: uX uY uZ at the node nearest the axis, uY uZ at one far along +X from it, uZ at one far along +Y."""
-    X, Y = np.where(usable, nodes, np.nan)
-    centre = int(np.nanargmin(X**2 + Y**2))
-    dX, dY = X - X[centre], Y - Y[centre]
-    right, top = int(np.nanargmax(dX - np.abs(dY))), int(np.nanargmax(dY - np.abs(dX)))
-    return 3 * centre, 3 * centre + 1, 3 * centre + 2, 3 * right + 1, 3 * right + 2, 3 * top + 2
+    words = interface if isinstance(interface, str) else interface.describe()
+    worst = max(reaction, shear_reaction)
+    return HelicalCell(system.field, stiffness, X, V, X_shear, V_shear, worst, words, system.free_motions)
 
 
 CIRCULAR = np.array([1.0, 1j, 0.0]) / np.sqrt(2)
@@ -164,7 +134,7 @@ COMPLEX_LOADS = {
 }
 
 
-def _solve_loads(axial: _Solver, harmonic: _Solver) -> tuple[dict[str, tuple], float]:
+def _solve_loads(axial: SectionSolver, harmonic: SectionSolver) -> tuple[dict[str, tuple], float]:
     """Solutions (x, y, XA part) for N, M_z, M_+ and T_+, and the largest relative reaction at the pins."""
     pencil, lam = harmonic.pencil, harmonic.lam
     loads: dict[str, tuple] = {}
@@ -181,7 +151,7 @@ def _solve_loads(axial: _Solver, harmonic: _Solver) -> tuple[dict[str, tuple], f
 
 
 def _solve_uniform_shear(
-    field: SectionField, harmonic: _Solver, T: sp.csr_array | None
+    field: SectionField, harmonic: SectionSolver, T: sp.csr_array | None
 ) -> tuple[FloatArray, FloatArray, float]:
     """Fields of the tractions s.n of a uniform shear stress s on the sides: the moment stays zero, every section is alike.
 
@@ -208,59 +178,6 @@ def _nodal_forces(field: SectionField, B: FloatArray, stress: NDArray) -> Comple
     return f
 
 
-class _Solver:
-    """Factor of K(lam) = E2 + lam (E1^T - E1) - lam^2 E0 without the pinned unknowns, with the six strains y by Schur complement."""
-
-    def __init__(self, pencil: _Pencil, lam: complex, pinned: tuple[int, ...]) -> None:
-        self.pencil, self.lam = pencil, lam
-        self.free = np.ones(pencil.Z.shape[0], dtype=bool)
-        self.free[list(pinned)] = False
-        K = pencil.E2 if lam == 0 else pencil.E2 + lam * pencil.skew - lam**2 * pencil.E0
-        self.K = sp.csr_array(K)
-        R = pencil.E1.T @ pencil.Z - lam * (pencil.E0 @ pencil.Z)
-        self.R = R.real if lam == 0 else R
-        free = self.free
-        inner = sp.csc_matrix(self.K[free][:, free])
-        try:
-            self.factor = spla.splu(
-                inner, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-            )
-        except RuntimeError:
-            raise ConvergenceError(
-                "the section problem is singular: some part of the section is not connected to the rest; "
-                "check that every region shares nodes with a neighbour."
-            ) from None
-        self.X_R = self._back(self.R)
-        self.schur = pencil.Z.T @ (pencil.E0 @ pencil.Z) - self.R.conj().T @ self.X_R
-
-    def _back(self, rhs: NDArray) -> NDArray:
-        out = np.zeros(rhs.shape, dtype=np.result_type(rhs, self.K.dtype))
-        free = self.free
-        b = np.ascontiguousarray(rhs[free].astype(out.dtype))
-        if np.iscomplexobj(b) and not np.iscomplexobj(self.K.data):
-            out[free] = self.factor.solve(np.real(b).copy()) + 1j * self.factor.solve(np.imag(b).copy())
-        else:
-            out[free] = self.factor.solve(b)
-        return out
-
-    def solve(self, f: NDArray, t: NDArray) -> tuple[NDArray, NDArray, float]:
-        """x, y of [K R; R^H Q0][x; y] = [f; t], and the relative reaction at the pins."""
-        x_f = self._back(f)
-        y = np.linalg.solve(self.schur, t - self.R.conj().T @ x_f)
-        x = x_f - self.X_R @ y
-        load = self.R @ y
-        residual = self.K @ x + load - f
-        uniform = np.abs(self.pencil.E0 @ (self.pencil.Z @ y)).max() / self.pencil.length
-        scale = max(np.abs(load).max(), np.abs(f).max(), uniform)
-        reaction = float(np.abs(residual).max() / scale)
-        if not reaction < REACTION_LIMIT:
-            raise ConvergenceError(
-                f"the section problem is out of balance by {reaction:.1e} of its nodal forces (allowed {REACTION_LIMIT:.0e}); "
-                "check for parts that are not connected, or for a contrast of moduli above 1e9."
-            )
-        return x, y, reaction
-
-
 def _real_columns(loads: dict[str, tuple], Z: FloatArray) -> tuple[FloatArray, FloatArray]:
     """X and V = XA + ZY per unit (T_x, T_y, N, M_x, M_y, M_z) from the solutions per complex load."""
     columns, values_x, values_v = [], [], []
@@ -278,7 +195,7 @@ def _real_columns(loads: dict[str, tuple], Z: FloatArray) -> tuple[FloatArray, F
     return np.ascontiguousarray(X.real), np.ascontiguousarray(V.real)
 
 
-def _compliance(pencil: _Pencil, X: FloatArray, V: FloatArray) -> FloatArray:
+def _compliance(pencil: SectionPencil, X: FloatArray, V: FloatArray) -> FloatArray:
     mixed = X.T @ (pencil.E1.T @ V)
     F = X.T @ (pencil.E2 @ X) + mixed + mixed.T + V.T @ (pencil.E0 @ V)
     return 0.5 * (F + F.T)

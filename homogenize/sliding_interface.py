@@ -1,20 +1,20 @@
-r"""Interfaces that slide without friction and without opening.
+r"""Interfaces that slide without opening, built into the unknowns.
 
-The nodes of an interface are doubled. With the surface normal of the helical interface in the rotating frame,
+The nodes of the separated interfaces are doubled (:mod:`homogenize.doubled_nodes`). A copy moves like the node it is linked to plus
+a slip s = (s_a, s_b) along the two tangents of the helical surface,
 
-.. math:: N = (n_X,\, n_Y,\, \tau_0 (n_X Y - n_Y X)) / |\cdot| ,
+.. math::  u_{copy} = u_{partner} + a\, s_a + b\, s_b , \qquad\text{so that}\quad N \cdot [u] = 0
 
-(n the normal of its trace; N is orthogonal to the trace and to the helix direction (-tau_0 Y, tau_0 X, 1)), the jump obeys
-N . [u] = 0. The condition is built into the unknowns, u = T (u_outer, s): the inner node shares the normal component of its
-partner and has two tangential ones of its own, so that K becomes T^T K T and no penalty is needed. N does not depend on z: the
-same T serves tension, torsion, bending and shear.
+needs no penalty: u = T (u_original, s) and K becomes T^T K T. N does not depend on z, and the same T serves tension, torsion, bending
+and shear. Slips that cost nothing are the frictionless interface; a law adds its forces to s; s = 0 is the bonded section.
 
-A part that slides in its hole can move freely along the helix: u = (-tau_0 Y, tau_0 X, 1), and a part that is centred on the axis can
-also turn about it. These motions store no energy and no load does work on them; they are pinned in the z-independent problem.
+A part that slides in its hole can move freely (:mod:`homogenize.free_motion`). These motions store no energy and no load does work on
+them; they are pinned in the z-independent problem, and named.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,10 +22,24 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from geometry.cell_mesh import CrossSectionMesh
-from geometry.errors import MeshError
+from homogenize.doubled_nodes import DoubledNodes, doubled_nodes
+from homogenize.free_motion import free_motions, pins
+from homogenize.interface_choice import InterfaceLaw, Interfaces
 from homogenize.section_field import FloatArray, SectionField
 
-_EDGES = ((0, 3, 1), (1, 4, 2), (2, 5, 0))  # corner, middle, corner of a six-node triangle
+
+@dataclass(frozen=True)
+class Frictionless:
+    """No tangential traction and no opening."""
+
+    @property
+    def holds(self) -> bool:
+        """Never resists a slip."""
+        return False
+
+    def describe(self) -> str:
+        """The law in words."""
+        return "frictionless"
 
 
 @dataclass(frozen=True)
@@ -35,118 +49,88 @@ class SlidingField:
     Attributes
     ----------
     field : with doubled nodes
-    T : (3 n, unknowns) values of the doubled field from the free unknowns
+    T : (3 n, unknowns) values of the doubled field from the free unknowns: those of the original nodes, then the slips
     Z : (unknowns, 6) rigid motions in the free unknowns
     slip_pins : unknowns that are pinned in the z-independent problem, one for each free motion of a part
-    anchored : (n_original,) nodes that do not belong to a sliding part, for the gauge of the whole section
+    free_motions : the same motions in words
+    anchored : (n_original,) nodes of the body that holds the gauge of the whole section
+    doubled : the links between the copies; the slip of link l are unknowns first_slip + 2 l and + 1
+    laws : names and laws, numbered as in ``doubled.law``
     """
 
     field: SectionField
     T: sp.csr_array
     Z: FloatArray
     slip_pins: tuple[int, ...]
+    free_motions: tuple[str, ...]
     anchored: NDArray[np.bool_]
+    doubled: DoubledNodes
+    laws: Mapping[str, InterfaceLaw]
+
+    @property
+    def first_slip(self) -> int:
+        """Number of the first slip unknown: three for each original node come before."""
+        return self.T.shape[1] - 2 * len(self.doubled.child)
+
+    def links_of(self, kind: type) -> NDArray[np.int64]:
+        """Links whose law is of a class."""
+        wanted = [isinstance(law, kind) for law in self.laws.values()]
+        return np.flatnonzero(np.array(wanted)[self.doubled.law])
+
+    def slips_of(self, links: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Slip unknowns of links, two by two."""
+        return (self.first_slip + 2 * links[:, None] + np.arange(2)).ravel()
+
+    def constant_of_links(self, name: str) -> FloatArray:
+        """A constant of the laws, by the name of its attribute, for each link; 0 where the law has none."""
+        return np.array([getattr(law, name, 0.0) for law in self.laws.values()])[self.doubled.law]
 
 
-def sliding_field(field: SectionField, mesh: CrossSectionMesh, kind: str = "conductor") -> SlidingField:
-    """Let every part of one `kind` slide in what surrounds it.
+def sliding_field(field: SectionField, mesh: CrossSectionMesh, interfaces: Interfaces) -> SlidingField:
+    """Separate the parts that are named, so that they can slide on each other.
 
     Raises
     ------
     MeshError
-        If the mesh is not made of six-node triangles, or no part is of that kind.
+        If the mesh is not made of triangles, or a name does not fit the parts.
     """
-    if field.cells.shape[0] != 6:
-        raise MeshError("sliding interfaces need a mesh of triangles; mesh the cross-section with kind triangle6.")
-    sliding = [i for i, region in enumerate(mesh.regions) if region.kind == kind]
-    if not sliding:
-        known = ", ".join(sorted({region.kind for region in mesh.regions}))
-        raise MeshError(f'no part is of kind "{kind}", so that nothing can slide; the kinds here are {known}.')
+    doubled = doubled_nodes(field, interfaces.separated(mesh))
+    holds = np.array([law.holds for law in interfaces.laws.values()])[doubled.law]
+    motions = free_motions(field, mesh, doubled, holds)
     n = field.nodes.shape[1]
-    cells, nodes, outer, normals = field.cells.copy(), [field.nodes], [], []
-    anchored = np.ones(n, dtype=bool)
-    pins: list[int] = []
-    total = n
-    for region in sliding:
-        inside = field.region_of == region
-        shared = np.intersect1d(field.cells[:, inside], field.cells[:, ~inside])
-        anchored[field.cells[:, inside]] = False
-        number = np.arange(n)
-        number[shared] = total + np.arange(len(shared))
-        cells[:, inside] = number[field.cells[:, inside]]
-        total += len(shared)
-        nodes.append(field.nodes[:, shared])
-        outer.append(shared)
-        normals.append(_normals(field, inside, shared))
-        interior = np.setdiff1d(field.cells[:, inside], shared)
-        pins += _pins(field, interior)
-    anchored[np.concatenate(outer)] = True  # the outer copies of the interface nodes
-    doubled = replace(field, nodes=np.concatenate(nodes, axis=1), cells=cells)
-    T, Z = _tie(field, np.concatenate(outer), np.concatenate(normals, axis=1))
-    return SlidingField(doubled, T, Z, tuple(pins), anchored)
+    slips = np.zeros((2 * len(doubled.child), motions.displacement.shape[1]))
+    if slips.size:
+        u = motions.displacement.reshape(-1, 3, slips.shape[1])
+        jump = u[doubled.child] - u[doubled.parent]
+        slips = np.einsum("kxl,lxm->lkm", doubled.frame[1:], jump).reshape(slips.shape)
+    in_unknowns = np.concatenate([motions.displacement[: 3 * n], slips])
+    rigid = field.rigid_motion()
+    return SlidingField(
+        field=replace(field, nodes=doubled.nodes, cells=doubled.cells),
+        T=_transfer(doubled, n),
+        Z=np.concatenate([rigid, np.zeros((2 * len(doubled.child), 6))]),
+        slip_pins=pins(in_unknowns),
+        free_motions=motions.sentences,
+        anchored=motions.at_rest[:n],
+        doubled=doubled,
+        laws=dict(interfaces.laws),
+    )
 
 
-def _normals(field: SectionField, inside: NDArray[np.bool_], shared: NDArray[np.int64]) -> FloatArray:
-    """Unit outward normals (2, nodes) of the trace of a part at its interface nodes, from its quadratic edges."""
-    n = field.nodes.shape[1]
-    on_interface = np.zeros(n, dtype=bool)
-    on_interface[shared] = True
-    total = np.zeros((2, n))
-    cells = field.cells[:, inside]
-    for corners in _EDGES:
-        a, m, b = cells[list(corners)]
-        edge = on_interface[a] & on_interface[m] & on_interface[b]
-        a, m, b = a[edge], m[edge], b[edge]
-        A, M, B = field.nodes[:, a], field.nodes[:, m], field.nodes[:, b]
-        centroid = field.nodes[:, cells[:3][:, edge]].mean(axis=1)
-        away = np.sign(_cross(B - A, centroid - A))
-        for node, tangent in ((a, -3 * A + 4 * M - B), (m, B - A), (b, A - 4 * M + 3 * B)):
-            np.add.at(total[0], node, away * tangent[1])
-            np.add.at(total[1], node, -away * tangent[0])
-    chosen = total[:, shared]
-    return chosen / np.linalg.norm(chosen, axis=0)
-
-
-def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    return a[0] * b[1] - a[1] * b[0]
-
-
-def _tie(field: SectionField, outer: NDArray[np.int64], normals: FloatArray) -> tuple[sp.csr_array, FloatArray]:
-    """T and Z: inner nodes share the normal component of their outer partner and keep two tangential ones."""
-    n, pairs = field.nodes.shape[1], len(outer)
-    X, Y = field.nodes[:, outer]
-    nX, nY = normals
-    N = np.stack([nX, nY, field.twist_rate * (nX * Y - nY * X)])
-    N /= np.linalg.norm(N, axis=0)
-    a = np.stack([-nY, nX, np.zeros(pairs)])
-    b = np.cross(N, a, axis=0)
-    inner = 3 * n + 3 * np.arange(pairs)
-    own = 3 * n + 2 * np.arange(pairs)
+def _transfer(doubled: DoubledNodes, n: int) -> sp.csr_array:
+    """T: a copy is the node at the root of its links plus the slips on the way."""
+    link_of = {int(child): i for i, child in enumerate(doubled.child)}
     rows, columns, values = [np.arange(3 * n)], [np.arange(3 * n)], [np.ones(3 * n)]
-    for x in range(3):
-        for y in range(3):
-            rows.append(inner + x)
-            columns.append(3 * outer + y)
-            values.append(N[x] * N[y])
-        for k, direction in enumerate((a, b)):
-            rows.append(inner + x)
-            columns.append(own + k)
-            values.append(direction[x])
-    shape = (3 * (n + pairs), 3 * n + 2 * pairs)
-    T = sp.coo_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=shape).tocsr()
-    Z = field.rigid_motion()
-    local = Z.reshape(n, 3, 6)[outer]
-    tangential = np.stack([np.einsum("xp,pxj->pj", d, local) for d in (a, b)], axis=1).reshape(2 * pairs, 6)
-    return T, np.concatenate([Z, tangential])
-
-
-def _pins(field: SectionField, interior: NDArray[np.int64]) -> list[int]:
-    """One unknown of an inner node for each free motion of a part: along its helix, and its turn where it is centred or straight."""
-    X, Y = field.nodes[:, interior]
-    x, y = X.mean(), Y.mean()
-    middle = int(interior[np.argmin((X - x) ** 2 + (Y - y) ** 2)])
-    centred = np.hypot(x, y) < 1e-2 * np.ptp(X)
-    if not centred and field.twist_rate != 0.0:
-        return [3 * middle + 2]
-    right = int(interior[np.argmax((X - x) - np.abs(Y - y))])
-    return [3 * middle + 2, 3 * right + 1]
+    for start in link_of:
+        node = start
+        while node in link_of:
+            i = link_of[node]
+            rows.append(np.repeat(3 * start + np.arange(3), 2))
+            columns.append(np.tile(3 * n + 2 * i + np.arange(2), 3))
+            values.append(doubled.frame[1:, :, i].T.ravel())
+            node = int(doubled.parent[i])
+        rows.append(3 * start + np.arange(3))
+        columns.append(3 * node + np.arange(3))
+        values.append(np.ones(3))
+    shape = (3 * doubled.nodes.shape[1], 3 * n + 2 * len(doubled.child))
+    return sp.coo_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=shape).tocsr()
