@@ -59,7 +59,7 @@ def check_cell(mesh: CrossSectionMesh, cell: HelicalCell) -> tuple[Check, ...]:
         r.material.E * a
         for r, a in zip(mesh.regions, np.bincount(mesh.region_of, cell.field.weight.sum(axis=1)), strict=True)
     )
-    torque, tension = _reciprocal_couplings(cell)
+    torque, tension = reciprocal_couplings(cell)
     energy, work = _energy_and_work(cell)
     symmetry = abs(torque - tension) / np.sqrt(section.C[2, 2] * section.C[5, 5])
     balance = abs(energy - work) / work
@@ -108,7 +108,7 @@ def _resultants(cell: HelicalCell, section_forces: NDArray[np.float64]) -> tuple
     return float((w * stress[..., 2]).sum()), float((w * (x * stress[..., 3] - y * stress[..., 4])).sum())
 
 
-def _reciprocal_couplings(cell: HelicalCell) -> tuple[float, float]:
+def reciprocal_couplings(cell: HelicalCell) -> tuple[float, float]:
     """Torque of unit stretch and tension of unit twist, each from its own stress field; no transverse forces or moments."""
     pair = np.linalg.inv(cell.stiffness.compliance[np.ix_([2, 5], [2, 5])])
     stretch, twist = np.zeros(6), np.zeros(6)
