@@ -14,7 +14,10 @@ import typer
 from geometry.errors import ConvergenceError, InputError
 from helicable.screen import errors
 
-VERBS = ("cables", "show", "mesh", "homogenize", "tow", "check", "compare", "explain", "add", "next", "effects", "demo")
+VERBS = (
+    "cables", "show", "mesh", "homogenize", "stress", "tow", "check", "compare", "explain", "add", "next", "effects", "demo",
+    "verify",
+)  # fmt: skip
 FILES = {"next": "next_experiment"}  # where a verb's file and function are not named as the verb
 
 

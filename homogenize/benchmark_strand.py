@@ -122,7 +122,7 @@ def frictionless_bending(strand: Strand16) -> float:
     R = (E1.T @ Z) - lam * (E0 @ Z)
     X, Y = mesh.points[: int(mesh.cells[mesh.region_of == 0].max()) + 1].T  # the core's nodes come first
     middle, right, top = int(np.argmin(np.hypot(X, Y))), int(np.argmax(X)), int(np.argmax(Y))
-    free = np.ones(K.shape[0], dtype=bool)
+    free = np.ones(len(Z), dtype=bool)
     free[[3 * middle, 3 * middle + 1, 3 * middle + 2, 3 * right + 1, 3 * right + 2, 3 * top + 2]] = False
     back = spla.splu(sp.csc_array(K[free][:, free])).solve(R[free])
     schur = Z.T @ (E0 @ Z) - R[free].conj().T @ back
@@ -138,7 +138,7 @@ def _radial_tie(Z: np.ndarray, inner: np.ndarray, outer: np.ndarray) -> tuple[sp
     angle = 2 * np.pi * np.arange(len(inner)) / len(inner)
     radial = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
     tangential = np.stack([-np.sin(angle), np.cos(angle), 0 * angle], axis=1)
-    T = sp.eye_array(len(Z), format="lil")
+    T = sp.lil_array(sp.eye_array(len(Z)))
     kept = Z.copy()
     for i, o, N, a in zip(inner, outer, radial, tangential, strict=True):
         rows = slice(3 * o, 3 * o + 3)

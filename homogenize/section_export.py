@@ -156,7 +156,7 @@ def _vabs(exported: ExportedSection) -> str:
 
  Timoshenko Flexibility Matrix (1-extension; 2,3-shear, 4-twist; 5,6-bending)
  ========================================================
-{_rows(np.linalg.inv(K))}
+{_rows(permuted(exported.section.compliance, ORDERS["vabs"]))}
 """
 
 

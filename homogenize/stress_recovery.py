@@ -91,11 +91,11 @@ class StressRecovery:
 
     def stress(self, angle: float) -> FloatArray:
         """Stress [Pa] at the nodes of each element, shape (e, k, 6), order xx yy zz yz xz xy in the axes of the section."""
-        return np.tensordot(_weights(angle), self.parts, 1)
+        return _at_angle(self.parts, angle)
 
     def axial(self, angle: float) -> FloatArray:
         """Stress [Pa] along the members, shape (e, k), with the section turned by `angle` [rad]."""
-        return np.tensordot(_weights(angle), self.along, 1)
+        return _at_angle(self.along, angle)
 
 
 def section_forces(
@@ -135,7 +135,7 @@ def section_forces(
 
 def turned_forces(forces: ArrayLike, angle: float) -> FloatArray:
     """Components (6,) in the axes of a section that is turned by `angle` [rad] = twist rate times z."""
-    return _weights(angle) @ _force_parts(np.asarray(forces, dtype=float))
+    return _at_angle(_force_parts(np.asarray(forces, dtype=float)), angle)
 
 
 def recover(cell: HelicalCell, mesh: CrossSectionMesh, forces: ArrayLike, *, angles: int = 72) -> StressRecovery:
@@ -165,7 +165,7 @@ def recover(cell: HelicalCell, mesh: CrossSectionMesh, forces: ArrayLike, *, ang
     along = _tension_along(_fibre_directions(field, len(mesh.regions)), stress)
     stretch = _tension_along(_fibre_directions(field, len(mesh.regions)), strain * [1, 1, 1, 0.5, 0.5, 0.5])
     turns = 2 * np.pi * np.arange(angles) / angles
-    mises = np.stack([von_mises(np.tensordot(_weights(turn), stress, 1)) for turn in turns])
+    mises = np.stack([von_mises(_at_angle(stress, float(turn))) for turn in turns])
     rows = []
     for i, region in enumerate(mesh.regions):
         inside = field.region_of == i
@@ -207,8 +207,8 @@ def _force_parts(forces: FloatArray) -> FloatArray:
     return np.array([[0, 0, N, 0, 0, Mz], [Tx, Ty, 0, Mx, My, 0], [Ty, -Tx, 0, My, -Mx, 0]])
 
 
-def _weights(angle: float) -> FloatArray:
-    return np.array([1.0, np.cos(angle), np.sin(angle)])
+def _at_angle(parts: FloatArray, angle: float) -> FloatArray:
+    return parts[0] + np.cos(angle) * parts[1] + np.sin(angle) * parts[2]
 
 
 def _range_over_pitch(parts: FloatArray) -> tuple[float, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -14,7 +15,16 @@ from geometry.units import read_quantity
 from helicable.options import CableArgument, JsonOption, OutOption, SizeOption
 from helicable.published import modulus_rows
 from helicable.screen import engineering, folder, progress, say, table, write_json
-from homogenize import INTERFACES, ORDER, Homogenization, PeriodicCell, homogenize_cable, slice_stiffness
+from homogenize import (
+    INTERFACES,
+    ORDER,
+    Homogenization,
+    PeriodicCell,
+    SectionInertia,
+    homogenize_cable,
+    slice_stiffness,
+)
+from homogenize.section_export import FORMATS, ExportedSection, dropped, export_format, export_section
 
 METHODS = ("helical", "cell")
 
@@ -31,12 +41,20 @@ def homogenize(
     phase: Annotated[str, typer.Option(help="Angle of the section for the values at a phase.")] = "0 deg",
     json: JsonOption = None,
     out: OutOption = None,
+    export: Annotated[
+        Path | None, typer.Option("--export", metavar="FILE", help="Write the section for another beam program.")
+    ] = None,
+    format: Annotated[
+        str | None,
+        typer.Option("--format", metavar="NAME", help=f"Of --export: {', '.join(FORMATS)}; else by the file's ending."),
+    ] = None,
 ) -> None:
     """Compute E, G_yoz, G_xoz and the 6x6 section stiffness of a long cable.
 
     Example: `helicable homogenize mcpt-1.9-3.3-3x35 --json section.json`
     """
     _check_choices(method, interface)
+    _check_export(method, export, format)
     made = read_cable(cable)
     element = None if size is None else read_quantity(size, "m", "--size")
     angle = read_quantity(phase, "rad", "--phase")
@@ -62,6 +80,11 @@ def homogenize(
         raise ConvergenceError(
             f"the result fails the check of {', '.join(failed)}: do not use it, and try another element size."
         )
+    if export is not None:
+        kind = export_format(export, format)
+        say(
+            f"written: {export_section(exported_section(result), export, kind)}, {kind}, averaged over the pitch. {dropped(kind)}"
+        )
 
 
 def _check_choices(method: str, interface: str) -> None:
@@ -71,6 +94,22 @@ def _check_choices(method: str, interface: str) -> None:
         raise SpecError(f'--interface "{interface}" is not known; choose {" or ".join(INTERFACES)}.')
     if method == "cell" and interface != "bonded":
         raise SpecError("the 3D slice bonds all parts; use --method helical for --interface frictionless.")
+
+
+def _check_export(method: str, export: Path | None, format: str | None) -> None:
+    if export is None and format is not None:
+        raise SpecError("--format says how --export FILE is written; name the file too.")
+    if export is not None:
+        export_format(export, format)
+        if method == "cell":
+            raise SpecError("the 3D slice has no bending and shear; export the result of --method helical.")
+
+
+def exported_section(result: Homogenization) -> ExportedSection:
+    """What other beam programs are given: the averaged section, mass, and rotary inertia as of a circle."""
+    cable = result.cable
+    inertia = SectionInertia.solid_circle(cable.mass_per_length, cable.outer_diameter)
+    return ExportedSection(cable.name, result.section, inertia, cable.outer_diameter)
 
 
 def held(result: Homogenization) -> str:

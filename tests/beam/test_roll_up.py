@@ -1,49 +1,21 @@
-"""A cantilever under an end moment M bends into an arc of radius EI/M: order of convergence, and section forces."""
+"""A cantilever under an end moment M bends into an arc of radius EI/M: order of convergence, and section forces (R3, R4)."""
 
 import numpy as np
 import pytest
 
+from beam.benchmark_statics import roll_up_error, static_cases
 from beam.hermite import hermite
-from beam.rod import Rod
-from beam.rod_model import RodModel, Support
-from beam.shape import straight
-from beam.statics import equilibrium
-from homogenize.section_stiffness import SectionInertia, SectionStiffness
-
-INERTIA = SectionInertia(1.0, 1e-3, 1e-3, 2e-3)
 
 
-def rolled(elements: int, length: float, EA: float, GA: float, EI: float, moment: float):
-    section = SectionStiffness.uncoupled(EA=EA, GA_x=GA, GA_y=GA, EI_x=EI, EI_y=EI, GJ=EI, area=1.0)
-    rod = Rod.straight(length, elements, section, INERTIA)
-    load = np.zeros((rod.nodes, 12))
-    load[-1, 8] = moment
-    result = equilibrium(RodModel(rod, straight(rod.s), [Support(0)], load=load))
-    result.outcome.require_success()
-    return result
+@pytest.mark.parametrize("case", [c for c in static_cases() if c.name.startswith(("R3", "R4"))], ids=str)
+def test_roll_up_and_pure_bend(case):
+    """Tip (0, 2L/pi) with order above 4.5; M = EI/R, N and Q vanish."""
+    assert not [b.sentence() for b in case.benchmarks() if not b.passed]
 
 
-def tip_error(elements: int) -> float:
-    tip = rolled(elements, 1.0, 1e4, 1e4, 2.0, 2 * np.pi).q[-1, :2]
-    return float(np.hypot(tip[0], tip[1] - 2 / np.pi))
-
-
-def test_half_circle_with_order_above_four_and_a_half():
-    """M = pi EI/L gives the tip (0, 2L/pi); cubic Hermite fields converge with order 5 to 6."""
-    errors = [tip_error(n) for n in (4, 8, 16)]
-    orders = np.log2(np.array(errors[:-1]) / errors[1:])
-    assert (orders > 4.2).all() and orders[-1] > 4.5
-    assert errors[-1] < 2.5e-6  # 1.9e-6 m was found for the same element by an independent prototype
-
-
-@pytest.mark.parametrize(("elements", "N_bound", "Q_bound"), [(8, 4.5, 2.0), (16, 0.5, 0.25), (32, 0.05, 0.03)])
-def test_pure_bend_has_moment_only(elements, N_bound, Q_bound):
-    """R = 0.4 m, EI = 124 N m2: M = 310 N m; N and Q vanish. Bounds: prototype 3.5/1.4, 0.35/0.17, 0.03/0.02 N, + 40 %."""
-    EI, R = 124.0, 0.4
-    S = rolled(elements, np.pi * R, 4.71e5, 3.5e3, EI, EI / R).forces.S
-    assert np.abs(S[:, :, 0]).max() < N_bound
-    assert np.abs(S[:, :, 1:3]).max() < Q_bound
-    np.testing.assert_allclose(S[:, :, 5], EI / R, rtol=1e-2 * (8 / elements) ** 2)
+def test_order_on_coarse_meshes():
+    """Above 4.2 from n = 4 on; cubic Hermite fields converge with order 5 to 6."""
+    assert np.log2(roll_up_error(4) / roll_up_error(8)) > 4.2
 
 
 def test_hermite_functions_reproduce_a_cubic():

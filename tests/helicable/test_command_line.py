@@ -7,7 +7,10 @@ import pytest
 from helicable.main import main
 
 CABLE = "mcpt-1.9-3.3-3x35"
-VERBS = ("cables", "show", "mesh", "homogenize", "tow", "check", "compare", "explain", "add", "next", "effects", "demo")
+VERBS = (
+    "cables", "show", "mesh", "homogenize", "stress", "tow", "check", "compare", "explain", "add", "next", "effects", "demo",
+    "verify",
+)  # fmt: skip
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,15 @@
+"""Every benchmark of section and cell, in the order of the theory: bars, cylinders, springs, strands, limits."""
+
+from __future__ import annotations
+
+from homogenize.benchmark import Case
+from homogenize.benchmark_cylinder import cylinder_cases
+from homogenize.benchmark_limits import limit_cases
+from homogenize.benchmark_prismatic import prismatic_cases
+from homogenize.benchmark_spring import spring_cases
+from homogenize.benchmark_strand import strand_cases
+
+
+def section_cases() -> tuple[Case, ...]:
+    """The cases; run them with :func:`homogenize.benchmark.run_cases`."""
+    return (*prismatic_cases(), *cylinder_cases(), *spring_cases(), *strand_cases(), *limit_cases())
