@@ -1,13 +1,14 @@
-"""Every benchmark of the rod: at rest, in motion, with friction."""
+"""Every benchmark of the rod: at rest, in motion, with friction, towed."""
 
 from __future__ import annotations
 
 from beam.benchmark_dynamics import dynamic_cases
 from beam.benchmark_friction import friction_cases
 from beam.benchmark_statics import static_cases
+from beam.benchmark_towing import towing_cases
 from homogenize.benchmark import Case
 
 
 def rod_cases() -> tuple[Case, ...]:
     """The cases; run them with :func:`homogenize.benchmark.run_cases`."""
-    return (*static_cases(), *dynamic_cases(), *friction_cases())
+    return (*static_cases(), *dynamic_cases(), *friction_cases(), *towing_cases())
