@@ -10,7 +10,7 @@ import typer
 
 from geometry.errors import SpecError
 from helicable.options import JsonOption
-from helicable.screen import progress, say, table, write_json
+from helicable.screen import plain, progress, say, write_json
 from homogenize.benchmark import Benchmark, Case, Progress, run_cases
 
 PARTS = ("section", "rod")
@@ -44,7 +44,7 @@ def verify(
     write_json(json, verification_record(found, time.perf_counter() - start))
     failed = [b for benchmarks in found.values() for b in benchmarks if not b.passed]
     for benchmark in failed:
-        say(f"FAILS {benchmark.sentence()}")
+        say(plain(f"FAILS {benchmark.sentence()}"))
     count = sum(len(benchmarks) for benchmarks in found.values())
     say(f"{count - len(failed)} of {count} benchmarks pass, {time.perf_counter() - start:.0f} s")
     if failed:
@@ -91,29 +91,26 @@ def expected_text(b: Benchmark) -> str:
     return {"at least": ">= ", "at most": "<= "}.get(b.kind, "") + f"{b.expected:.7g}"
 
 
+LINE = "{:4}  {:<44} {:>24} {:>14} {:>9} {:>9}"
+
+
 def show_benchmarks(part: str, benchmarks: Sequence[Benchmark]) -> None:
-    """Print the table of one part."""
-    rows: list[tuple[str, ...]] = []
+    """Print the numbers of one part, each benchmark under its name and source."""
+    heads = ("", "quantity", "expected", "computed", "error", "allowed")
+    say({"section": "[bold]Section and cell[/bold]", "rod": "[bold]Rod[/bold]"}[part])
+    say(f"[bold]{LINE.format(*heads)}[/bold]")
     last = ""
     for b in benchmarks:
         head = f"{b.name} ({b.source})"
         if head != last:
-            rows.append(("", head, "", "", "", ""))
+            say(plain(head))
         last = head
         bounded = b.kind != "equal"
-        rows.append(
-            (
-                "pass" if b.passed else "FAIL",
-                f"  {b.quantity}",
-                expected_text(b),
-                f"{b.computed:.7g}",
-                "" if bounded and b.passed else f"{b.error:.1e}",
-                "" if bounded else f"{b.tolerance:.1e}",
-            )
-        )
-    titles = {"section": "Section and cell", "rod": "Rod"}
-    columns = ("", "benchmark (source), quantity", "expected", "computed", "error", "allowed")
-    table(titles[part], columns, rows, right=(2, 3, 4, 5))
+        error = "" if bounded and b.passed else f"{b.error:.1e}"
+        allowed = "" if bounded else f"{b.tolerance:.1e}"
+        mark = "pass" if b.passed else "FAIL"
+        say(plain(LINE.format(mark, b.quantity, expected_text(b), f"{b.computed:.7g}", error, allowed)))
+    say("")
 
 
 def verification_record(found: dict[str, list[Benchmark]], seconds: float) -> dict[str, Any]:

@@ -96,6 +96,9 @@ def test_stress_along_the_wires_of_a_strand_is_that_of_the_rod_model(degrees):
     assert 0.9 * strand.E < rows[0].axial_mean < strand.E  # the wires press on the core, which stretches for less
     for row in rows[1:]:
         assert row.axial_mean == pytest.approx(strand.E * xi, rel=0.03)
+        assert 0.5 * (row.strain_min + row.strain_max) == pytest.approx(
+            xi, rel=0.03
+        )  # bending is opposite on both sides
 
 
 def test_forces_of_a_given_bend_and_twist(composite):
