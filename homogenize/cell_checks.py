@@ -123,6 +123,8 @@ def _energy_and_work(cell: HelicalCell) -> tuple[float, float]:
     load[2], load[5] = np.sqrt(diagonal[2]), np.sqrt(diagonal[5])
     strain, stress = cell.strain(load), cell.stress(load)
     energy = float(np.einsum("eq,eqi,eqi->", cell.field.weight, strain, stress))
+    if cell.interface_compliance is not None:
+        energy += float(load @ cell.interface_compliance @ load)
     tension, torque = _resultants(cell, load)
     psi = cell.stiffness.compliance @ load
     return energy, tension * psi[2] + torque * psi[5]

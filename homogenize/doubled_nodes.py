@@ -77,7 +77,9 @@ def doubled_nodes(field: SectionField, law_of: NDArray[np.int64]) -> DoubledNode
         If the mesh is not made of triangles.
     """
     if field.cells.shape[0] != 6:
-        raise MeshError("interfaces that are not bonded need a mesh of triangles; mesh the cross-section with kind triangle6.")
+        raise MeshError(
+            "interfaces that are not bonded need a mesh of triangles; mesh the cross-section with kind triangle6."
+        )
     edges = _separated_edges(field, law_of)
     group_of = _groups(field, law_of, np.unique(edges.nodes))
     number = {node: _copy_numbers(groups) for node, groups in group_of.items()}

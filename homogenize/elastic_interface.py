@@ -40,7 +40,7 @@ class Elastic:
         if not (np.isfinite(self.stiffness) and self.stiffness >= 0):
             raise SpecError(
                 f"the stiffness of an elastic interface must be zero or a positive number of Pa/m, found {self.stiffness:g}; "
-                'for no slip leave the interface out, all parts are then bonded there.'
+                "for no slip leave the interface out, all parts are then bonded there."
             )
 
     @property

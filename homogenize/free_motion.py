@@ -92,7 +92,9 @@ def free_motions(
             sentences.append(f"{names[b]} {_how(motion, field.twist_rate, _centre(doubled.nodes, body, b))}")
     joint = _remaining(whole, found)
     for k in range(joint.shape[2]):
-        moving = [names[b] for i, b in enumerate(others) if np.abs(joint[i, :, k]).max() > 1e-3 * np.abs(joint[:, :, k]).max()]
+        moving = [
+            names[b] for i, b in enumerate(others) if np.abs(joint[i, :, k]).max() > 1e-3 * np.abs(joint[:, :, k]).max()
+        ]
         sentences.append(f"{' and '.join(moving)} move together")
     found = np.concatenate([found, joint], axis=2)
     for k in range(found.shape[2]):
@@ -126,7 +128,9 @@ def _rates(nodes: FloatArray, twist_rate: float) -> FloatArray:
     return np.moveaxis(np.array(motions), (0, 1, 2), (2, 1, 0))
 
 
-def _conditions(doubled: DoubledNodes, holds: NDArray[np.bool_], rates: FloatArray, body: NDArray[np.int64]) -> FloatArray:
+def _conditions(
+    doubled: DoubledNodes, holds: NDArray[np.bool_], rates: FloatArray, body: NDArray[np.int64]
+) -> FloatArray:
     """Jump that every link forbids, (conditions, j, bodies), per unit of each motion of each body."""
     links, j, bodies = len(doubled.child), rates.shape[2], 1 + body.max()
     rows = np.zeros((3, links, j, bodies))

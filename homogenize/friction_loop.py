@@ -5,8 +5,8 @@ A load path is followed step by step (:mod:`homogenize.coulomb_interface`); each
 .. math::  F = C e + A^H s, \qquad \Delta D = \sum_i c_i\, |\Delta s_i|, \qquad \oint F\, de = \oint \Delta D
 
 (per length, mean over the pitch; the last for a closed loop). The first slope is that of the bonded section, the last that of the section
-without friction. With constant grip an unloading branch is the first loading twice as large (Masing): for no other friction than on first
-loading has to be overcome, only from -c to c.
+without friction. With constant grip an unloading branch is the first loading twice as large (Masing): friction has to be turned
+round from -c to c. This is exact where the tractions keep their lines, and a rule of thumb (1e-3 in bending) where they turn.
 
 The grip p is a given pressure, or a share of the tension at the end of the step before, p = p_0 + p_1 N.
 """
@@ -24,8 +24,6 @@ from homogenize.coulomb_interface import SlipOperator, slip_step
 from homogenize.section_field import FloatArray
 
 Progress = Callable[[float, str], None]
-_SLIDES = 1e-6
-"""Share of the friction force by which a node must fall short of it to count as stuck."""
 
 
 @dataclass(frozen=True)
@@ -167,9 +165,12 @@ def friction_loop(
         pressure = p0 if grip_per_tension is None else np.maximum(p0 + grip_per_tension * force[i - 1, 0], 0.0)
         cap[i] = section.friction * pressure
         load = op.load(section.amplitude(path[i]))
-        slip[i], iterations[i] = slip_step(op, load, slip[i - 1], cap[i] * section.surface, _guess(path, slip, i))
+        friction = -traction[i - 1] * np.repeat(section.surface, 2)
+        slip[i], iterations[i] = slip_step(
+            op, load, slip[i - 1], cap[i] * section.surface, _guess(path, slip, i), friction
+        )
         force[i] = section.force(op.section_force(section.amplitude(path[i]), slip[i]))
-        traction[i] = -(op.force(slip[i]) + load) / np.repeat(section.surface, 2)
+        traction[i] = (op.force(slip[i]) + load) / np.repeat(section.surface, 2)
         length = np.linalg.norm((slip[i] - slip[i - 1]).reshape(j, m, 2), axis=-1)
         heat[i] = heat[i - 1] + (length * cap[i] * section.surface).sum() / j
         if progress:
@@ -177,7 +178,15 @@ def friction_loop(
     shaped = (n, j, m, 2)
     moved = np.diff(slip, axis=0, prepend=slip[:1]).reshape(shaped)
     return FrictionLoop(
-        section, path, force, slip.reshape(shaped), traction.reshape(shaped), np.abs(moved).max(axis=-1) > 0, heat, cap, iterations
+        section,
+        path,
+        force,
+        slip.reshape(shaped),
+        traction.reshape(shaped),
+        np.abs(moved).max(axis=-1) > 0,
+        heat,
+        cap,
+        iterations,
     )
 
 

@@ -32,6 +32,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from geometry.cell_mesh import CrossSectionMesh
+from geometry.errors import ConvergenceError
 from homogenize.interface_choice import Interfaces
 from homogenize.section_field import FloatArray, SectionField
 from homogenize.section_problem import REACTION_LIMIT, SectionPencil, SectionSolver
@@ -56,6 +57,7 @@ class HelicalCell:
     reaction : largest relative reaction of the pinned unknowns (a check of equilibrium)
     interface : "bonded", "frictionless", or the interfaces in words
     free_motions : motions of parts that cost nothing and were held, in words
+    interface_compliance : (6, 6) part of C^-1 that is the energy of elastic interfaces; None where all parts are bonded
     """
 
     field: SectionField
@@ -67,6 +69,7 @@ class HelicalCell:
     reaction: float
     interface: str = "bonded"
     free_motions: tuple[str, ...] = ()
+    interface_compliance: FloatArray | None = None
 
     def strain(self, section_forces: FloatArray) -> FloatArray:
         """Local strain, shape (e, q, 6), order xx yy zz yz xz xy, under section forces (6,) in the rotating frame."""
@@ -111,16 +114,26 @@ def solve_helical_cell(mesh: CrossSectionMesh, interface: str | Interfaces = "bo
     pencil, T, tau = system.pencil, system.T, mesh.twist_rate
     axial = SectionSolver(pencil, 0.0, (*system.gauge, *system.slip_pins))
     harmonic = axial if tau == 0.0 else SectionSolver(pencil, 1j * tau, system.gauge)
-    loads, reaction = _solve_loads(axial, harmonic)
+    try:
+        loads, reaction = _solve_loads(axial, harmonic)
+    except ConvergenceError:
+        if tau == 0.0 and system.free_motions:
+            raise ConvergenceError(
+                f"the cable is straight and {system.free_motions[0]} without resistance, so that its bending has no steady state: the slip "
+                "grows along the whole cable; give the cable a lay, or the interface a stiffness, Elastic(k_t)."
+            ) from None
+        raise
     X, V = _real_columns(loads, pencil.Z)
     X_shear, V_shear, shear_reaction = _solve_uniform_shear(system.field, harmonic, T)
     C = np.linalg.inv(_compliance(pencil, X, V))
     stiffness = SectionStiffness(0.5 * (C + C.T), system.field.area)
+    slips = None
     if T is not None:
+        slips = X.T @ (system.slip_stiffness[:, None] * X)
         X, V, X_shear, V_shear = (T @ u for u in (X, V, X_shear, V_shear))
     words = interface if isinstance(interface, str) else interface.describe()
     worst = max(reaction, shear_reaction)
-    return HelicalCell(system.field, stiffness, X, V, X_shear, V_shear, worst, words, system.free_motions)
+    return HelicalCell(system.field, stiffness, X, V, X_shear, V_shear, worst, words, system.free_motions, slips)
 
 
 CIRCULAR = np.array([1.0, 1j, 0.0]) / np.sqrt(2)

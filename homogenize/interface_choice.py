@@ -157,7 +157,11 @@ def _split(name: str, known: Mapping[str, NDArray]) -> tuple[str, str]:
         if left in known and right in known:
             return left, right
     missing = [word for cut in cuts[:1] for word in cut if word not in known] or [name]
-    words = [w for w in ("conductor", "insulation", "screen", "cover", "core", "centre", "filler", "wrap", "sheath") if w in known]
+    words = [
+        w
+        for w in ("conductor", "insulation", "screen", "cover", "core", "centre", "filler", "wrap", "sheath")
+        if w in known
+    ]
     raise MeshError(
         f'nothing can slide at "{name}": no part is "{missing[0]}"; write two sides with a hyphen between, each one of '
         f"{', '.join([*words, 'surroundings'])} or the name of a part."

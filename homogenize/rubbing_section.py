@@ -51,7 +51,15 @@ def axial_friction(
         return section
     released = SlipOperator((_without_torque(section.operator.harmonics[0]),))
     return RubbingSection(
-        released, ("stretch",), ("N",), section.surface, section.friction, section.position, section.normal, section.parts, False
+        released,
+        ("stretch",),
+        ("N",),
+        section.surface,
+        section.friction,
+        section.position,
+        section.normal,
+        section.parts,
+        False,
     )
 
 
@@ -72,7 +80,9 @@ def bending_friction(
         If nothing rubs, the cable is not laid, or names do not fit the parts.
     """
     if mesh.twist_rate == 0.0:
-        raise SpecError("friction in bending needs a lay: in a straight cable no section ever unloads its slip along z.")
+        raise SpecError(
+            "friction in bending needs a lay: in a straight cable no section ever unloads its slip along z."
+        )
     if harmonics < 1:
         raise SpecError(f"bending needs at least one harmonic along the pitch, found {harmonics}.")
     return _rubbing(mesh, interfaces, tuple(range(1, 2 * harmonics, 2)), progress)

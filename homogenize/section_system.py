@@ -16,7 +16,7 @@ from geometry.errors import SpecError
 from homogenize.elastic_interface import Elastic
 from homogenize.free_motion import check_connected
 from homogenize.interface_choice import Interfaces
-from homogenize.section_field import SectionField, section_field
+from homogenize.section_field import FloatArray, SectionField, section_field
 from homogenize.section_problem import SectionPencil, gauge_unknowns
 from homogenize.sliding_interface import Frictionless, SlidingField, sliding_field
 
@@ -34,12 +34,14 @@ class SectionSystem:
     pencil : its matrices in the free unknowns
     gauge : six unknowns pinned against motions of the whole section
     sliding : interfaces and unknowns; None when all parts are bonded
+    slip_stiffness : (unknowns,) k_t w of elastic interfaces, on the diagonal of E2 already
     """
 
     field: SectionField
     pencil: SectionPencil
     gauge: tuple[int, ...]
     sliding: SlidingField | None
+    slip_stiffness: FloatArray
 
     @property
     def T(self) -> sp.csr_array | None:
@@ -57,7 +59,9 @@ class SectionSystem:
         return () if self.sliding is None else self.sliding.free_motions
 
 
-def section_system(mesh: CrossSectionMesh, interface: str | Interfaces = "bonded", history: bool = False) -> SectionSystem:
+def section_system(
+    mesh: CrossSectionMesh, interface: str | Interfaces = "bonded", history: bool = False
+) -> SectionSystem:
     """Assemble a section; `history` says that the caller follows laws that depend on the history of the load.
 
     Raises
@@ -72,7 +76,7 @@ def section_system(mesh: CrossSectionMesh, interface: str | Interfaces = "bonded
         gauge = gauge_unknowns(field.nodes, np.ones(field.nodes.shape[1], dtype=bool))
         E0, E1, E2 = field.matrices()
         pencil = SectionPencil(E0, sp.csr_array(E1.T - E1), E1, E2, field.rigid_motion(), field.area**0.5)
-        return SectionSystem(field, pencil, gauge, None)
+        return SectionSystem(field, pencil, gauge, None, np.zeros(field.unknowns))
     remembers = [name for name, law in interfaces.laws.items() if not isinstance(law, Frictionless | Elastic)]
     if remembers and not history:
         raise SpecError(
@@ -86,7 +90,7 @@ def section_system(mesh: CrossSectionMesh, interface: str | Interfaces = "bonded
     E2 = sp.csr_array(E2 + sp.diags_array(stiffness))
     pencil = SectionPencil(E0, sp.csr_array(E1.T - E1), E1, E2, sliding.Z, sliding.field.area**0.5)
     gauge = gauge_unknowns(field.nodes, sliding.anchored)
-    return SectionSystem(sliding.field, pencil, gauge, sliding)
+    return SectionSystem(sliding.field, pencil, gauge, sliding, stiffness)
 
 
 def _interfaces(interface: str | Interfaces) -> Interfaces | None:
