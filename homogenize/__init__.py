@@ -6,10 +6,17 @@ torsion) -> :class:`SectionStiffness`, with :func:`volume_average` for the modul
 """
 
 from homogenize.cell_checks import Check, axial_bounds, check_cell
+from homogenize.coulomb_interface import Coulomb
+from homogenize.elastic_interface import Elastic
+from homogenize.friction_loop import FrictionLoop, friction_loop
+from homogenize.grip_pressure import grip_per_tension
 from homogenize.helical_cell import INTERFACES, HelicalCell, solve_helical_cell
 from homogenize.homogenization import Homogenization, homogenize_cable, slice_stiffness
+from homogenize.interface_choice import Interfaces
 from homogenize.periodic_cell import PeriodicCell, solve_periodic_cell
+from homogenize.rubbing_section import axial_friction, bending_friction
 from homogenize.section_stiffness import ORDER, SectionInertia, SectionStiffness, pitch_average
+from homogenize.sliding_interface import Frictionless
 from homogenize.stiffness_bounds import LooseStiffness, StiffnessRange, allowed_stiffness, loose_stiffness
 from homogenize.volume_average import VolumeAverage, volume_average
 
@@ -17,8 +24,13 @@ __all__ = [
     "INTERFACES",
     "ORDER",
     "Check",
+    "Coulomb",
+    "Elastic",
+    "FrictionLoop",
+    "Frictionless",
     "HelicalCell",
     "Homogenization",
+    "Interfaces",
     "LooseStiffness",
     "PeriodicCell",
     "SectionInertia",
@@ -27,7 +39,11 @@ __all__ = [
     "VolumeAverage",
     "allowed_stiffness",
     "axial_bounds",
+    "axial_friction",
+    "bending_friction",
     "check_cell",
+    "friction_loop",
+    "grip_per_tension",
     "homogenize_cable",
     "loose_stiffness",
     "pitch_average",

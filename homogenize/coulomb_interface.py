@@ -9,16 +9,17 @@ p_i the grip pressure, w_i the surface of node i per length: stick where the tra
 along the traction with |t_i| = mu p_i (the principle of maximal dissipation, implicit in time; for given p the flow is associated
 and the sum convex). Sticking is exact, there is no penalty.
 
-Solved by splitting (alternating directions): an elastic step with all slips free but tied to a trial z by springs rho L_i, and a return mapping
-at every node, all at once,
+Solved by splitting (alternating directions): an elastic step with all slips free but tied to a trial z by springs rho L_i,
+and a return mapping at every node, all at once,
 
 .. math::
    (S + \rho L)\, d = \rho L (z - u) - r, \qquad v = \alpha d + (1 - \alpha) z + u, \qquad
    z_i \leftarrow v_i \max(0,\ 1 - c_i / (\rho L_i |v_i|)), \qquad u \leftarrow v - z ,
 
-d and z the slip increment, -rho L u the friction force on the slipping part, r the force of the load on the old slips, L_i a bound of S at the node. The springs
-are an aid of the iteration: at its end d = z. rho is small because slips at full friction are governed by soft, long-ranged motions (whole parts that
-slide), which the elastic step takes exactly. Boyd, Parikh, Chu, Peleato, Eckstein, Found. Trends Mach. Learn. 3 (2011) 1-122, doi 10.1561/2200000016.
+d and z the slip increment, -rho L u the friction force on the slipping part, r the force of the load on the old slips, L_i a
+bound of S at the node. The springs are an aid of the iteration: at its end d = z. rho is small because slips at full friction are
+governed by soft, long-ranged motions (whole parts that slide), which the elastic step takes exactly. Boyd, Parikh, Chu, Peleato,
+Eckstein, Found. Trends Mach. Learn. 3 (2011) 1-122, doi 10.1561/2200000016.
 """
 
 from __future__ import annotations

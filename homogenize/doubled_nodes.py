@@ -9,7 +9,7 @@ a part that is bonded to both sides has one. The copies are joined in a tree by 
 .. math:: N = (n_X,\, n_Y,\, \tau_0 (n_X Y - n_Y X)) / |\cdot|, \quad a = (-n_Y, n_X, 0), \quad b = N \times a,
 
   (n the normal of the trace; N is orthogonal to the trace and to the helix direction (-tau_0 Y, tau_0 X, 1)),
-* the surface that belongs to it, per length along z: :math:`w = \int \varphi\, |(n_X, n_Y, \tau_0(n_X Y - n_Y X))|\, ds`, by Simpson's rule.
+* its surface per length along z, by Simpson's rule: :math:`w = \int \varphi\, |(n_X, n_Y, \tau_0(n_X Y - n_Y X))|\, ds`.
 
 Where three parts meet, the third interface (between the two copies that are not linked) has no law of its own at that one node: an
 error that vanishes with the element size. Where a trace is a circle its normals are those of the circle; else they are means over

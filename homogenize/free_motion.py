@@ -111,7 +111,8 @@ def pins(motions_in_unknowns: FloatArray) -> tuple[int, ...]:
     """One unknown for each motion (unknowns, motions), chosen so that holding them stops every motion."""
     if motions_in_unknowns.shape[1] == 0:
         return ()
-    order = scipy.linalg.qr(motions_in_unknowns.T, mode="r", pivoting=True)[1]
+    factors: tuple = tuple(scipy.linalg.qr(motions_in_unknowns.T, mode="r", pivoting=True))
+    order = factors[-1]
     return tuple(int(i) for i in order[: motions_in_unknowns.shape[1]])
 
 
@@ -133,11 +134,12 @@ def _conditions(
 ) -> FloatArray:
     """Jump that every link forbids, (conditions, j, bodies), per unit of each motion of each body."""
     links, j, bodies = len(doubled.child), rates.shape[2], 1 + body.max()
-    rows = np.zeros((3, links, j, bodies))
-    at = np.arange(links)
+    rows: FloatArray = np.zeros((3, links, j, bodies))
+    at = range(links)
     for node, sign in ((doubled.child, 1.0), (doubled.parent, -1.0)):
-        jump = np.einsum("kxl,lxj->klj", doubled.frame, rates[node])
-        rows[:, at, :, body[node]] += sign * np.moveaxis(jump, 0, 1)
+        jump: FloatArray = np.einsum("kxl,lxj->klj", doubled.frame, rates[node])
+        for l in at:
+            rows[:, l, :, body[node[l]]] += sign * jump[:, l]
     forbidden = np.stack([np.ones(links, dtype=bool), holds, holds])
     return rows[forbidden]
 

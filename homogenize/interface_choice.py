@@ -171,7 +171,7 @@ def _split(name: str, known: Mapping[str, NDArray]) -> tuple[str, str]:
 def _apart(mesh: CrossSectionMesh, touch: NDArray[np.bool_], name: str) -> str:
     known = sides(mesh)
     left, right = _split(name, known)
-    beside = touch[known[left]].any(axis=0)
+    beside = np.asarray(touch[known[left]].any(axis=0))
     if left in ("core", "centre"):
         beside &= ~known[left]
     kinds = list(dict.fromkeys(r.kind for r, b in zip(mesh.regions, beside) if b)) or ["no other part"]

@@ -15,8 +15,9 @@ that do not, e = Q^H y. Eliminating y under t = Q F leaves the energy per length
    W = \tfrac12 e^H C e + \mathrm{Re}\; s^H A\, e + \tfrac12 s^H S s, \qquad
    C = (Q^H \bar C^{-1} Q)^{-1}, \; G = \bar A \bar C^{-1} Q, \; A = G C, \; S = \bar S - \bar A \bar C^{-1} \bar A^H + G C G^H ,
 
-section forces F = C e + A^H s, and the force A e + S s that friction must put on the slipping part. C is the bonded stiffness; C - A^H S^+ A the stiffness without
-friction. One factor and one solve for each slip unknown per harmonic; no solve later, whatever the load path.
+section forces F = C e + A^H s, and the force A e + S s that friction must put on the slipping part. C is the
+bonded stiffness; C - A^H S^+ A the stiffness without friction. One factor and one solve
+for each slip unknown per harmonic; no solve later, whatever the load path.
 """
 
 from __future__ import annotations

@@ -2,8 +2,9 @@ r"""Sections that rub, condensed for loops of tension and torsion, and of bendin
 
 Tension and torsion: harmonic 0, every section of the cable slips alike.
 
-Bending about a fixed axis: in the turning frame the curvature (kappa_x, kappa_y) is Re[(kappa_x - i kappa_y) (1, i) exp(i tau_0 z)], and the slips
-vary along the pitch. Stiffness does not couple the harmonics exp(i k tau_0 z); friction, local at every station along the pitch, does.
+Bending about a fixed axis: in the turning frame the curvature (kappa_x, kappa_y) is Re[(kappa_x - i kappa_y) (1, i) exp(i tau_0 z)],
+and the slips vary along the pitch. Stiffness does not couple the harmonics exp(i k tau_0 z);
+friction, local at every station along the pitch, does.
 Half a pitch on, the curvature is reversed in the turning frame; with a grip that is the same at all z, so are the slips, and only the
 odd harmonics k = 1, 3, .. 2 K - 1 appear, on 2 K stations along half a pitch.
 

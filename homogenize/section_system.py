@@ -85,7 +85,7 @@ def section_system(
         )
     sliding = sliding_field(field, mesh, interfaces)
     E0, E1, E2 = (sp.csr_array(sliding.T.T @ E @ sliding.T) for E in sliding.field.matrices())
-    stiffness = np.zeros(sliding.T.shape[1])
+    stiffness = np.zeros(len(sliding.Z))
     stiffness[sliding.first_slip :] = np.repeat(sliding.constant_of_links("stiffness") * sliding.doubled.surface, 2)
     E2 = sp.csr_array(E2 + sp.diags_array(stiffness))
     pencil = SectionPencil(E0, sp.csr_array(E1.T - E1), E1, E2, sliding.Z, sliding.field.area**0.5)

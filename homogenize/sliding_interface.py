@@ -70,7 +70,7 @@ class SlidingField:
     @property
     def first_slip(self) -> int:
         """Number of the first slip unknown: three for each original node come before."""
-        return self.T.shape[1] - 2 * len(self.doubled.child)
+        return len(self.Z) - 2 * len(self.doubled.child)
 
     def links_of(self, kind: type) -> NDArray[np.int64]:
         """Links whose law is of a class."""

@@ -73,7 +73,8 @@ def test_bending_through_an_elastic_interface_is_the_shear_beam():
 
 
 def test_a_thin_soft_layer_is_an_elastic_interface():
-    """A layer of thickness h and shear modulus G between wire and rod acts as k_t = G / h: EA, GJ and EI within a tenth of what slip can change."""
+    """A layer of thickness h and shear modulus G between wire and rod acts as k_t = G / h:
+    EA, GJ and EI within a tenth of what slip can change."""
     beta, a, h = np.radians(30.0), 0.5, 0.02
     thick = wire_in_rod(beta=beta, around=32)
     k = 0.5

@@ -68,6 +68,9 @@ def test_surfaces_add_up_to_the_interface():
     doubled = doubled_nodes(section_field(mesh), Interfaces({"conductor-insulation": FREE}).separated(mesh))
     assert doubled.surface.sum() == pytest.approx(2 * np.pi * 0.5 / np.cos(beta), rel=1e-4)
     assert (doubled.surface > 0).all()
+    X, Y = doubled.nodes[:, doubled.child]
+    helix = np.stack([-mesh.twist_rate * Y, mesh.twist_rate * X, np.ones_like(X)])
+    assert np.abs((doubled.frame[0] * helix).sum(axis=0)).max() < 1e-12
 
 
 def test_free_motions_are_named():
@@ -96,10 +99,10 @@ def test_a_separated_mesh_of_one_material_still_balances():
 
 def test_what_cannot_slide_is_refused(cable):
     mesh = wire_in_rod()
-    with pytest.raises(MeshError, match="do not touch: core touches cover, interstices, sheath, not armour|no part is"):
+    with pytest.raises(MeshError, match='no part is "armour"'):
         Interfaces({"core-armour": FREE}).separated(cable)
     with pytest.raises(
-        MeshError, match="do not touch: conductor touches insulation, cover, not sheath|do not touch: conductor"
+        MeshError, match="names parts that do not touch: conductor touches cover, insulation, not sheath"
     ):
         Interfaces({"conductor-sheath": FREE}).separated(cable)
     with pytest.raises(MeshError, match="give them one law"):
@@ -120,5 +123,5 @@ def test_a_part_that_touches_nothing_is_named():
     number[shared] = len(mesh.points) + np.arange(len(shared))
     cells[inner] = number[cells[inner]]
     loose = dataclasses.replace(mesh, points=np.concatenate([mesh.points, mesh.points[shared]]), cells=cells)
-    with pytest.raises(MeshError, match="part 0 touches no other part .* can move freely"):
+    with pytest.raises(MeshError, match=r"part 0 touches no other part .* can move freely"):
         solve_helical_cell(loose)

@@ -8,8 +8,10 @@ from section_meshes import rings, wire_trace
 from geometry.cell_mesh import CrossSectionMesh, Region
 from geometry.material import Material
 
+STEEP = np.radians(17.0)
 
-def wire_in_rod(a=0.5, r=3.0, R=5.0, beta=np.radians(17.0), wire=10.0, rod=1.0, around=12, per_ring=2, straight=False):
+
+def wire_in_rod(a=0.5, r=3.0, R=5.0, beta=STEEP, wire=10.0, rod=1.0, around=12, per_ring=2, straight=False):
     """Wire of radius a on a helix of radius r, lay angle beta, in a rod of radius R; moduli `wire`, `rod`, Poisson's ratio 0.3."""
     tau = 0.0 if straight else np.tan(beta) / r
     trace = wire_trace(a, r, tau)
