@@ -9,6 +9,7 @@ from geometry.cable_table import Row, describe, marked_rows
 from geometry.cell_mesh import CellBlock, CrossSectionMesh, Region, SliceMesh, SweptCell
 from geometry.clearance import Clearance, Member, clearances, helix_distance
 from geometry.cutaway_picture import draw_cutaway
+from geometry.data_sheet import DataSheetRow, data_sheet_rows
 from geometry.errors import ConvergenceError, GeometryError, InputError, MeshError, SpecError
 from geometry.helical_slice import helical_slice
 from geometry.helix import Helix, lay_angle
@@ -32,6 +33,7 @@ __all__ = [
     "Conductor",
     "ConvergenceError",
     "CrossSectionMesh",
+    "DataSheetRow",
     "GeometryError",
     "Helix",
     "InputError",
@@ -53,6 +55,7 @@ __all__ = [
     "cable_files",
     "clearances",
     "cross_section_mesh",
+    "data_sheet_rows",
     "describe",
     "draw_cross_section",
     "draw_cutaway",
