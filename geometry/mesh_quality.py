@@ -88,7 +88,7 @@ def block_sizes(points: NDArray[np.float64], cells: NDArray[np.int64], kind: str
     for part in _parts(len(cells)):
         nodes = points[cells[part]]
         for gradient, weight in zip(gradients, weights, strict=True):
-            columns = [np.tensordot(nodes, g, axes=(1, 0)) for g in gradient.T]
+            columns = [np.einsum("ekx,k->ex", nodes, g) for g in gradient.T]
             sizes[part] += weight * _determinant(columns)
     return sizes
 
@@ -96,7 +96,9 @@ def block_sizes(points: NDArray[np.float64], cells: NDArray[np.int64], kind: str
 def region_sizes(mesh: AnyMesh) -> NDArray[np.float64]:
     """Area [m^2] or volume [m^3] of every region, in the order of ``mesh.regions``."""
     region_of = np.concatenate([block.region_of for block in mesh.blocks])
-    return np.bincount(region_of, weights=element_sizes(mesh), minlength=len(mesh.regions))
+    sizes = np.zeros(len(mesh.regions))
+    np.add.at(sizes, region_of, element_sizes(mesh))
+    return sizes
 
 
 def quality_histogram(mesh: AnyMesh, bins: int = 10) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
