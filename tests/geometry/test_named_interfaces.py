@@ -180,9 +180,8 @@ def test_nothing_chosen_changes_nothing():
     assert doubled.pairs == () and len(doubled.original) == len(mesh.points)
 
 
-@pytest.mark.parametrize("layers", [1, 2, 3])
-def test_a_strand_that_goes_on_as_its_neighbour(layers):
-    """Four bars whose end faces match after a quarter turn: bar k on the top is bar k + 1 on the bottom, and stays one body."""
+def four_bars(layers):
+    """Four bars of 2 x 2 cubes whose end faces match after a quarter turn: bar k on the bottom is bar k + 1 on the top."""
 
     def quarter(x, y, z):
         return [[0, 1], [3, 2]][int(y > 2)][int(x > 2)]
@@ -194,6 +193,13 @@ def test_a_strand_that_goes_on_as_its_neighbour(layers):
     top = above[((points[above][None] - turned[:, None]) ** 2).sum(-1).argmin(axis=1)]
     mesh = replace(mesh, points=points, bottom=below, top=top, twist_rate=np.pi / 2 / layers)
     assert mesh.matching_gap() < 1e-12
+    return mesh
+
+
+@pytest.mark.parametrize("layers", [1, 2, 3])
+def test_a_strand_that_goes_on_as_its_neighbour(layers):
+    """Every bar stays one body, and its end nodes find their partners on its neighbour."""
+    mesh = four_bars(layers)
     doubled = double_nodes(mesh, interfaces(mesh))
     check(mesh, doubled)
     assert bodies(doubled.mesh) == 4
@@ -206,6 +212,19 @@ def test_a_strand_that_goes_on_as_its_neighbour(layers):
         len(doubled.mesh.bottom) == 4 * 9 and len(set(doubled.mesh.bottom)) == 36
     )  # every strand has its 3 x 3 end nodes
     np.testing.assert_array_equal(region[doubled.mesh.top], (region[doubled.mesh.bottom] + 1) % 4)
+
+
+def test_an_interface_that_ends_at_the_end_faces():
+    """Bars 0 and 1 alone are parted; above and below they go on as bars that are not: nothing opens on the end faces.
+
+    Of the 3 nodes of each inner plane the one on the axis stays whole, 0 and 1 are joined round it by 2 and 3.
+    """
+    mesh = four_bars(3)
+    doubled = double_nodes(mesh, select_interfaces(interfaces(mesh), "strand 0 | strand 1"))
+    check(mesh, doubled)
+    np.testing.assert_array_equal(np.sort(mesh.points[doubled.original[len(mesh.points) :], 2]), [1, 1, 2, 2])
+    pairs = [set(zip(m.bottom.tolist(), m.top.tolist())) for m in (mesh, doubled.mesh)]
+    assert pairs[0] == pairs[1]
 
 
 def test_an_interface_that_ends_at_a_void():
