@@ -185,7 +185,7 @@ def _conductor(name: str, spec: StrandedTable | CylinderTable, strands: Mapping[
         )
     factor = 1.0 if spec.lay_factor is None else _si(spec.lay_factor)
     density = _si(spec.fill) * _si(spec.wire_density)
-    return Conductor(name, stated, metal, _si(spec.E), _si(spec.nu), density, factor)
+    return Conductor(name, stated, metal, _si(spec.E), _si(spec.nu), density, factor, wires=sum(_ints(spec.wires)))
 
 
 def _core(name: str, spec: CoreTable, conductors: Mapping[str, Conductor], materials: Mapping[str, Material]) -> Round:

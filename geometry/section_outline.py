@@ -78,18 +78,26 @@ def section_outline(
                 index[_key(trace)] = len(curves)
                 curves.append(trace)
     outline = SectionOutline(curves)
+    filler = _filler(cable)
+    if (
+        filler is not None
+        and (rim := WireTrace(0.0, 0.0, filler.outer_radius, cable.twist_rate))
+        and _key(rim) not in index
+    ):
+        index[_key(rim)] = len(curves)  # nothing lies round the filler
+        curves.append(rim)
     zone = _zone_curves(cable, index)
     contacts: list[Contact] = []
     if zone:
         cores, centre, outer = zone
-        hosts = cores + [outer] + ([centre] if centre is not None else [])
-        areas = {number: _host_area(cable, curves[number]) for number in hosts}
-        contacts, outline.necks = find_closures(curves, cores, centre, outer, areas, neck_below)
+        hosts = cores + [number for number in (centre, outer) if number is not None]
+        areas = {number: _host_area(cable, curves[number], number == outer) for number in hosts}
+        contacts, outline.necks = find_closures(curves, cores, centre, outer, areas, neck_below, filler is not None)
     pieces = _cut(outline, contacts, cuts or {})
     bridges = _bridges(outline, contacts, pieces)
     _ring_faces(outline, rings, index, zone, contacts, pieces, bridges)
-    if zone and any(part.kind == "interstices" for part in cable.parts):
-        outline.faces["interstices"] = _filler_faces(outline, zone, contacts, pieces, bridges)
+    if zone and filler is not None:
+        outline.faces[filler.name] = _filler_faces(outline, zone, contacts, pieces, bridges)
     return outline
 
 
@@ -101,26 +109,55 @@ def _key(trace: WireTrace) -> tuple[float, float, float]:
     )
 
 
+def _filler(cable: Cable) -> Part | None:
+    """The part between the laid parts, None if the gaps are empty."""
+    fillers = [part for part in cable.parts if part.kind == "interstices"]
+    if len(fillers) > 1:
+        raise MeshError(
+            f"{cable.name}: {fillers[0].name} and {fillers[1].name} cannot be meshed in one section, which has one filler: "
+            "leave one of them out."
+        )
+    return fillers[0] if fillers else None
+
+
 def _zone_curves(
     cable: Cable, index: dict[tuple[float, float, float], int]
-) -> tuple[list[int], int | None, int] | None:
-    """Curves that bound the interstices: cores, centre (or None), laid-up circle; None if the cable is coaxial."""
-    outermost = {part.member: part for part in cable.parts if part.kind not in ("interstices", "wrap", "sheath")}
-    cores = [index[_key(part.outer_trace)] for part in outermost.values() if part.centre_radius > 0]
-    centre = [index[_key(part.outer_trace)] for part in outermost.values() if part.centre_radius == 0]
-    if not cores:
+) -> tuple[list[int], int | None, int | None] | None:
+    """Curves that bound the gaps: laid parts, centre (or None), circle round them (or None); None if the cable is coaxial."""
+    laid = {
+        part.member: part for part in cable.parts if part.centre_radius > 0
+    }  # the last of a member is its outermost
+    if not laid:
         return None
-    return cores, centre[0] if centre else None, index[(0.0, 0.0, round(cable.laid_up_radius, 12))]
+    low = min(part.centre_radius for part in laid.values())
+    high = max(part.centre_radius for part in laid.values())
+    coaxial = [part for part in cable.parts if part.centre_radius == 0 and part.kind != "interstices"]
+    between = [part.name for part in coaxial if low < part.outer_radius < high]
+    if between:
+        raise MeshError(
+            f"{cable.name}: {between[0]} lies between two layers of laid parts; a section with one such layer is meshed so far: "
+            "try a cable file with one of the layers."
+        )
+    cores = [index[_key(part.outer_trace)] for part in laid.values()]
+    inside = [part.outer_radius for part in coaxial if part.outer_radius <= low]
+    outside = [part.inner_radius for part in coaxial if part.inner_radius >= high]
+    outside += [part.outer_radius for part in cable.parts if part.kind == "interstices"]
+    circle = [
+        index[(0.0, 0.0, round(radius, 12))]
+        for radius in (max(inside, default=0.0), min(outside, default=0.0))
+        if radius
+    ]
+    centre = circle[0] if inside else None
+    return cores, centre, circle[-1] if outside else None
 
 
-def _host_area(cable: Cable, curve: WireTrace) -> float:
-    """Area of the layer that gets the closures on this curve: outside the laid-up circle, inside any other curve."""
-    laid_up = curve.centre_radius == 0 and abs(curve.radius - cable.laid_up_radius) < 1e-12
+def _host_area(cable: Cable, curve: WireTrace, outer: bool) -> float:
+    """Area of the layer that gets the closures on this curve: outside the `outer` circle, inside any other curve."""
     for part in cable.parts:
-        trace = part.inner_trace if laid_up else part.outer_trace
+        trace = part.inner_trace if outer else part.outer_trace
         if part.kind != "interstices" and trace is not None and _key(trace) == _key(curve):
             return part.area
-    raise MeshError("no part lies along a curve of the section.")
+    return cable.area  # nothing lies round the filler: a closure only ends it bluntly
 
 
 def _cut(
@@ -226,13 +263,13 @@ def _ring_faces(
     outline: SectionOutline,
     rings: list[Part],
     index: dict[tuple[float, float, float], int],
-    zone: tuple[list[int], int | None, int] | None,
+    zone: tuple[list[int], int | None, int | None] | None,
     contacts: list[Contact],
     pieces: dict[int, list[tuple[int, int | None, bool]]],
     bridges: list[list[int]],
 ) -> None:
     """Faces of all rings; the layer that touches gets the closures."""
-    laid_up = zone[2] if zone else -1
+    around = zone[2] if zone else None
 
     def boundary(number: int, sign: int, host: bool) -> list[list[int]]:
         signed = [sign * (e + 1) for e, _, removed in pieces[number] if not removed]
@@ -240,21 +277,22 @@ def _ring_faces(
 
     for part in rings:
         outer = index[_key(part.outer_trace)]
-        loops = boundary(outer, 1, outer != laid_up)
+        loops = boundary(outer, 1, outer != around)
         if part.inner_trace is not None:
             inner = index[_key(part.inner_trace)]
-            loops += boundary(inner, -1, inner == laid_up)
+            loops += boundary(inner, -1, inner == around)
         outline.faces[part.name] = [loops]
 
 
 def _filler_faces(
     outline: SectionOutline,
-    zone: tuple[list[int], int | None, int],
+    zone: tuple[list[int], int | None, int | None],
     contacts: list[Contact],
     pieces: dict[int, list[tuple[int, int | None, bool]]],
     bridges: list[list[int]],
 ) -> list[list[list[int]]]:
     cores, centre, outer = zone
+    assert outer is not None
     signed = [e + 1 for e, closure, _ in pieces[outer] if closure is None]
     for number in cores + ([centre] if centre is not None else []):
         signed += [-(e + 1) for e, closure, _ in pieces[number] if closure is None]

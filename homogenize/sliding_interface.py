@@ -49,12 +49,12 @@ class SlidingField:
 
 
 def sliding_field(field: SectionField, mesh: CrossSectionMesh, kind: str = "conductor") -> SlidingField:
-    """Let every part of one `kind` slide in what surrounds it.
+    """Let every part of one `kind` slide in what surrounds it; where two of them touch, the outer one slides on the inner one.
 
     Raises
     ------
     MeshError
-        If the mesh is not made of six-node triangles, or no part is of that kind.
+        If the mesh is not made of six-node triangles, no part is of that kind, or none of them touches another part.
     """
     if field.cells.shape[0] != 6:
         raise MeshError("sliding interfaces need a mesh of triangles; mesh the cross-section with kind triangle6.")
@@ -67,9 +67,13 @@ def sliding_field(field: SectionField, mesh: CrossSectionMesh, kind: str = "cond
     anchored = np.ones(n, dtype=bool)
     pins: list[int] = []
     total = n
-    for region in sliding:
+    fixed = np.ones(field.cells.shape[1], dtype=bool)  # cells of parts that do not slide yet
+    for region in _from_outside(field, sliding):
         inside = field.region_of == region
-        shared = np.intersect1d(field.cells[:, inside], field.cells[:, ~inside])
+        fixed &= ~inside
+        shared = np.intersect1d(field.cells[:, inside], field.cells[:, fixed])
+        if not len(shared):  # all that touches it slides on it already
+            continue
         anchored[field.cells[:, inside]] = False
         number = np.arange(n)
         number[shared] = total + np.arange(len(shared))
@@ -80,10 +84,22 @@ def sliding_field(field: SectionField, mesh: CrossSectionMesh, kind: str = "cond
         normals.append(_normals(field, inside, shared))
         interior = np.setdiff1d(field.cells[:, inside], shared)
         pins += _pins(field, interior)
+    if not outer:
+        raise MeshError(f'no part of kind "{kind}" touches another part, so that nothing can slide; choose bonded.')
     anchored[np.concatenate(outer)] = True  # the outer copies of the interface nodes
     doubled = replace(field, nodes=np.concatenate(nodes, axis=1), cells=cells)
     T, Z = _tie(field, np.concatenate(outer), np.concatenate(normals, axis=1))
     return SlidingField(doubled, T, Z, tuple(pins), anchored)
+
+
+def _from_outside(field: SectionField, regions: list[int]) -> list[int]:
+    """Regions by the distance of their centre from the axis, the outermost first."""
+
+    def distance(region: int) -> float:
+        nodes = np.unique(field.cells[:, field.region_of == region])
+        return float(np.hypot(*field.nodes[:, nodes].mean(axis=1)))
+
+    return sorted(regions, key=distance, reverse=True)
 
 
 def _normals(field: SectionField, inside: NDArray[np.bool_], shared: NDArray[np.int64]) -> FloatArray:
