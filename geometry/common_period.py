@@ -299,7 +299,7 @@ class _Search:
         advice = []
         longer = self._shortest(tolerance, 20 * longest)
         if longer is not None:
-            advice.append(f"allow a period of {_mm(longer.height)}")
+            advice.append(f"allow a period of {_mm(_rounded_up(longer.height))}")
         nearest = self._nearest(tolerance, longest)
         if nearest is None:
             advice = advice or ["lengthen the period that is allowed"]
@@ -448,6 +448,12 @@ def _check(tolerance: float, longest: float | None, height: float | None, twist_
             raise GeometryError(f"the {what} must be a positive length, found {length:g} m.")
     if not np.isfinite(twist_rate):
         raise GeometryError(f"the twist rate of a cell must be finite, found {twist_rate:g} rad/m.")
+
+
+def _rounded_up(length: float) -> float:
+    """To five digits, upwards, so that advice that is followed works."""
+    step = 10 ** (np.floor(np.log10(length)) - 4)
+    return float(np.ceil(length / step - EXACT) * step)
 
 
 def _mm(length: float) -> str:
