@@ -18,7 +18,8 @@ from geometry.mesh_file import write_mesh
 from geometry.mesh_quality import element_sizes, region_sizes, scaled_jacobian
 from geometry.nested_helix import CentreLine, nested_helix
 from geometry.section_mesh import cross_section_mesh
-from geometry.section_picture import draw_cross_section, draw_mesh
+from geometry.mesh_picture import draw_mesh, draw_swept_cell
+from geometry.section_picture import draw_cross_section
 from geometry.sized_slice import slice_of_size, slice_record
 from geometry.strand import Conductor, Strand
 from geometry.swept_solids import Solid, write_solids
@@ -60,6 +61,7 @@ __all__ = [
     "draw_cross_section",
     "draw_cutaway",
     "draw_mesh",
+    "draw_swept_cell",
     "element_sizes",
     "helical_slice",
     "helix_distance",

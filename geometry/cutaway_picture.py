@@ -78,7 +78,9 @@ def cutaway_surfaces(cable: Cable, length: float, wires: bool = True) -> Iterato
         if laid:
             yield from _round_wires(laid, length * drawn_from(laid[0], steps), length * step.end)
         for part in (p for p in step.parts if p.layer is None):
-            yield from _part_surfaces(cable, part, length * drawn_from(part, steps), length * step.end, bool(laid), wires)
+            yield from _part_surfaces(
+                cable, part, length * drawn_from(part, steps), length * step.end, bool(laid), wires
+            )
 
 
 def _part_surfaces(
