@@ -116,15 +116,12 @@ def layer_parts(layer: WireLayer, below: float) -> list[Part]:
     Raises
     ------
     GeometryError
-        If a wire cannot be bent so sharply, or a filler is asked for where wires lie in the valleys of the layer below.
+        If a filler is asked for where wires lie in the valleys of the layer below.
     """
     parts = []
     for i in range(layer.count):
         phase = layer.phase + 2 * np.pi * i / layer.count
-        try:
-            moments = ring_moments(layer.radius, phase, 0.0, layer.diameter / 2, layer.twist_rate)
-        except GeometryError as error:
-            raise GeometryError(f"{layer.name}: {error}") from None
+        moments = ring_moments(layer.radius, phase, 0.0, layer.diameter / 2, layer.twist_rate)
         name = f"{layer.name} wire {i + 1}"
         parts.append(
             Part(
@@ -191,17 +188,21 @@ def _check_neighbours(layer: WireLayer) -> None:
     gap = layer.gap
     if gap >= -TOUCH:
         return
-    room = largest_count(layer.radius, layer.diameter, layer.lay)
-    fewer = f"take at most {room} wire{'s' if room > 1 else ''}"
+    wires = f"its {layer.count} wires" if layer.count > 1 else "its 1 wire"
+    at = f"on {'their' if layer.count > 1 else 'its'} circle of radius {1e3 * layer.radius:.5g} mm"
+    advice = []
     fitting = shortest_lay(layer.count, layer.radius, layer.diameter, layer.lay)
-    at = f"on their circle of radius {1e3 * layer.radius:.5g} mm"
-    if layer.lay is not None and fitting is not None:
+    if fitting is not None and layer.lay is not None:
         at += f" at a lay of {1e3 * layer.lay:.4g} mm ({np.degrees(layer.lay_angle):.1f} deg)"
-        fewer = f"lengthen the lay to at least {1e3 * np.ceil(1e4 * fitting) / 1e4:.1f} mm, or {fewer}"
+        advice.append(f"lengthen the lay to at least {1e3 * np.ceil(1e4 * fitting) / 1e4:.1f} mm")
     elif layer.lay is not None:
         at += ", at any lay"
+    if layer.count > 1:
+        room = largest_count(layer.radius, layer.diameter, layer.lay)
+        advice.append(f"take at most {room} wire{'s' if room > 1 else ''}")
+    overlap = "overlap" if layer.count > 1 else "overlaps itself"
     raise GeometryError(
-        f"{layer.name}: its {layer.count} wires of {1e3 * layer.diameter:.4g} mm overlap by {-1e3 * gap:.3g} mm {at}: {fewer}."
+        f"{layer.name}: {wires} of {1e3 * layer.diameter:.4g} mm {overlap} by {-1e3 * gap:.3g} mm {at}: {', or '.join(advice)}."
     )
 
 
