@@ -48,8 +48,9 @@ def area_true_points(
     phi = curve.nearest(points)
     on = curve.point(phi)
     lengths = np.linalg.norm(on[edges[:, 1]] - on[edges[:, 0]], axis=1)
-    total = np.bincount(edges.ravel(), weights=np.repeat(lengths, 2), minlength=len(on))
-    cubes = np.bincount(edges.ravel(), weights=np.repeat(lengths**3, 2), minlength=len(on))
+    total, cubes = np.zeros(len(on)), np.zeros(len(on))
+    np.add.at(total, edges.ravel(), np.repeat(lengths, 2))
+    np.add.at(cubes, edges.ravel(), np.repeat(lengths**3, 2))
     normal, curvature = _normal_and_curvature(curve, phi)
     move = curvature / 12 * np.divide(cubes, total, out=np.zeros_like(total), where=total > 0)
     return on + np.clip(move, -most, most)[:, None] * normal

@@ -101,8 +101,15 @@ def region_sizes(mesh: AnyMesh) -> NDArray[np.float64]:
     return sizes
 
 
-def quality_histogram(mesh: AnyMesh, bins: int = 10) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def quality_histogram(
+    mesh: AnyMesh | NDArray[np.float64], bins: int = 10
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Number of elements by scaled Jacobian.
+
+    Parameters
+    ----------
+    mesh : a mesh, or the scaled Jacobians themselves
+    bins : steps between 0 and 1
 
     Returns
     -------
@@ -119,13 +126,15 @@ def quality_histogram(mesh: AnyMesh, bins: int = 10) -> tuple[NDArray[np.int64],
     if bins < 1:
         raise MeshError(f"a histogram needs at least one bin, found {bins}.")
     edges = np.concatenate([[-1.0], np.linspace(0.0, 1.0, bins + 1)])
-    counts, _ = np.histogram(np.clip(scaled_jacobian(mesh), -1.0, 1.0), edges)
+    quality = mesh if isinstance(mesh, np.ndarray) else scaled_jacobian(mesh)
+    counts, _ = np.histogram(np.clip(quality, -1.0, 1.0), edges)
     return counts.astype(np.int64), edges
 
 
-def share_below(mesh: AnyMesh, quality: float = 0.2) -> float:
-    """Share of the elements, by number, whose scaled Jacobian is below `quality`."""
-    return float((scaled_jacobian(mesh) < quality).mean())
+def share_below(mesh: AnyMesh | NDArray[np.float64], limit: float = 0.2) -> float:
+    """Share of the elements, by number, whose scaled Jacobian is below `limit`; of a mesh, or of the scaled Jacobians themselves."""
+    quality = mesh if isinstance(mesh, np.ndarray) else scaled_jacobian(mesh)
+    return float((quality < limit).mean())
 
 
 def _parts(count: int) -> Iterator[slice]:
