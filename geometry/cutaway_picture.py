@@ -19,6 +19,7 @@ from geometry.helix import Helix
 from geometry.laid_member import STRAIGHT, part_helix, stranded, strands
 from geometry.nested_helix import CentreLine, wound_on
 from geometry.rendered_scene import Label, Surface, View, rendered, write_picture
+from geometry.section_legend import lay_words
 from geometry.strand import Conductor
 from geometry.stripping import Step, bare, drawn_from, laid_in_core, stripped_steps
 from geometry.swept_surface import SIDES, swept_surface, wire_surfaces
@@ -197,10 +198,5 @@ def _title(step: Step) -> str:
 
 
 def _facts(cable: Cable, length: float) -> str:
-    facts = [f"\u2300 {1e3 * cable.outer_diameter:.1f} mm"]
-    if cable.single_lay:
-        facts.append("straight" if cable.lay is None else f"lay {1e3 * cable.lay:.4g} mm ({cable.hand})")
-    else:
-        rates = [rate for rate in cable.lays if rate]
-        facts.append("lays " + ", ".join(f"{2e3 * np.pi / abs(r):.4g} {'Z' if r > 0 else 'S'}" for r in rates) + " mm")
-    return " \u00b7 ".join([*facts, f"{cable.mass_per_length:.3g} kg/m", f"length shown {1e3 * length:.0f} mm"])
+    facts = [f"\u2300 {1e3 * cable.outer_diameter:.1f} mm", lay_words(cable), f"{cable.mass_per_length:.3g} kg/m"]
+    return " \u00b7 ".join([*facts, f"length shown {1e3 * length:.0f} mm"])

@@ -74,7 +74,7 @@ class LaidMember:
         helix = self.levels[0]
         line = CentreLine(fine, helix.position(fine), helix.transported_frame(fine), fine / np.cos(helix.lay_angle))
         for level in self.levels[1:]:
-            line = _from_origin(wound_on(line, level), line, level, origin)
+            line = wound_from_origin(line, level, origin)
         rows = np.searchsorted(fine, heights)
         return CentreLine(heights, line.points[rows], line.frames[rows], line.s[rows] - line.s[rows[0]])
 
@@ -181,8 +181,12 @@ def wires(member: LaidMember, strand: Strand) -> list[LaidMember]:
     return found
 
 
-def _from_origin(line: CentreLine, host: CentreLine, level: Helix, origin: int) -> CentreLine:
-    """The same line with s = 0 and e1 pointing away from its host line at z = 0."""
+def wound_from_origin(host: CentreLine, level: Helix, origin: int) -> CentreLine:
+    """A member wound on its finely sampled host line, with s = 0 and e1 pointing away from the host at the row `origin`.
+
+    The arc length of the host must be zero there, so that the phase of `level` counts from it.
+    """
+    line = wound_on(host, level)
     e1, e2 = line.frames[origin, 1:]
     h1, h2 = host.frames[origin, 1:]
     out = np.cos(level.phase) * h1 + np.sin(level.phase) * h2

@@ -11,13 +11,14 @@ wire_trace.py.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geometry.cable import Cable, Part
-from geometry.laid_member import LaidMember, stranded, strands, wires
+from geometry.laid_member import LaidMember, stranded, strands, wires, wound_from_origin
+from geometry.nested_helix import CentreLine
 
 
 @dataclass(frozen=True)
@@ -46,12 +47,16 @@ def pipe_trace(member: LaidMember, phi: ArrayLike, radius: float | None = None) 
     ----------
     radius : of the pipe [m], None for the outer radius of the member
     """
+    rho = member.outer_radius if radius is None else radius
+    reach = max(2.0 * rho, 1e-6)
+    return line_trace(member.centre_line(np.linspace(-reach, reach, 25)), phi, rho)
+
+
+def line_trace(line: CentreLine, phi: ArrayLike, rho: float) -> NDArray[np.float64]:
+    """Trace (..., 2) [m] of the pipe of radius `rho` [m] about a centre line that is sampled on both sides of z = 0."""
     from scipy.interpolate import CubicSpline  # slow to load, needed here only
 
-    rho = member.outer_radius if radius is None else radius
     phi = np.asarray(phi, dtype=float)
-    reach = max(2.0 * rho, 1e-6)
-    line = member.centre_line(np.linspace(-reach, reach, 25))
     along = CubicSpline(line.z, np.concatenate([line.points, line.frames[:, 1], line.frames[:, 2]], axis=1))
     c, s = rho * np.cos(phi)[..., None], rho * np.sin(phi)[..., None]
 
@@ -61,7 +66,7 @@ def pipe_trace(member: LaidMember, phi: ArrayLike, radius: float | None = None) 
 
     w = np.zeros_like(phi)
     for _ in range(6):
-        w = np.clip(w - point(w, 0)[..., 2] / point(w, 1)[..., 2], -reach, reach)
+        w = np.clip(w - point(w, 0)[..., 2] / point(w, 1)[..., 2], line.z[0], line.z[-1])
     return point(w, 0)[..., :2]
 
 
@@ -101,11 +106,15 @@ def _inside(cable: Cable, part: Part, inside: str, samples: int) -> Iterator[Tra
     round_strand = np.linspace(0, 2 * np.pi, max(samples // 3, 12), endpoint=False)
     round_wire = np.linspace(0, 2 * np.pi, max(samples // 10, 10), endpoint=False)
     for strand in strands(part, conductor):
-        suffix = strand.name.removeprefix(part.name)
-        yield Trace(suffix, part.kind, "strand", pipe_trace(strand, round_strand))
-        if inside == "wire":
-            for wire in wires(strand, conductor.strand):
-                yield Trace(wire.name.removeprefix(part.name), part.kind, "wire", pipe_trace(wire, round_wire))
+        suffix, reach = strand.name.removeprefix(part.name), 2 * strand.outer_radius
+        line = strand.centre_line(np.linspace(-reach, reach, 41))
+        yield Trace(suffix, part.kind, "strand", line_trace(line, round_strand, strand.outer_radius))
+        line = replace(line, s=line.s - line.s[20])  # counts from z = 0
+        for wire in wires(strand, conductor.strand) if inside == "wire" else ():
+            own = wound_from_origin(line, wire.levels[-1], 20)
+            yield Trace(
+                wire.name.removeprefix(part.name), part.kind, "wire", line_trace(own, round_wire, wire.outer_radius)
+            )
 
 
 def _turned(trace: Trace, angle: float, name: str = "") -> Trace:

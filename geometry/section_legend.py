@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.cable import Cable, Part
-from geometry.colour_scheme import KIND_TITLES, part_colour
+from geometry.colour_scheme import KIND_TITLES, STEEL, part_colour
 from geometry.stripping import laid_in_core
 
 DEGREE = np.pi / 180
@@ -44,7 +44,17 @@ class Block:
 
 def legend_blocks(cable: Cable) -> list[Block]:
     """All blocks: cores and centre, then the layers about the axis from the outside."""
-    return [*_core_blocks(cable), *_layer_blocks(cable)]
+    cores = list(_core_blocks(cable))
+    lines = [sum(b.lines + 2 for b in cores if (b.anchor[0] > 0) == side) for side in (False, True)]
+    return [*cores, *_layer_blocks(cable, lines)]
+
+
+def lay_words(cable: Cable) -> str:
+    """The lays of a cable in words."""
+    if cable.single_lay:
+        return "straight" if cable.lay is None else f"lay {1e3 * cable.lay:.4g} mm ({cable.hand})"
+    lays = [f"{2e3 * np.pi / abs(rate):.4g} {'Z' if rate > 0 else 'S'}" for rate in cable.lays if rate]
+    return f"lays {', '.join(lays)} mm"
 
 
 def _core_blocks(cable: Cable) -> Iterator[Block]:
@@ -66,16 +76,18 @@ def _core_blocks(cable: Cable) -> Iterator[Block]:
         yield Block(title, tuple(rows), _core_anchor(layers[-1]), note)
 
 
-def _layer_blocks(cable: Cable) -> Iterator[Block]:
-    """Rings and layers of wires, the outermost first, alternately right and left."""
+def _layer_blocks(cable: Cable, lines: list[int]) -> Iterator[Block]:
+    """Rings and layers of wires, the outermost first, on the side (left, right) that has fewer `lines` so far."""
     layers: dict[str, list[Part]] = {}
     for part in cable.parts:
         if not laid_in_core(part):
             layers.setdefault(part.layer or part.name, []).append(part)
     order = sorted(layers.items(), key=lambda item: -max(p.centre_radius + p.outer_radius for p in item[1]))
     for k, (name, parts) in enumerate(order):
-        tilt = (25.0 + 14.0 * k) * DEGREE
-        angle = -tilt if k % 2 == 0 else np.pi + tilt
+        right = lines[1] <= lines[0]
+        lines[right] += 5 if parts[0].layer is not None else 3
+        tilt = (20.0 + 50.0 * k / len(order)) * DEGREE
+        angle = -tilt if right else np.pi + tilt
         first = parts[0]
         if first.layer is not None:
             yield _wire_block(name, parts, angle)
@@ -134,7 +146,7 @@ def _core_anchor(part: Part) -> NDArray[np.float64]:
 def _gap_point(cable: Cable, filler: Part, angle: float) -> NDArray[np.float64]:
     """The widest place of a filler near an angle."""
     turn, radius = np.meshgrid(
-        angle + np.linspace(-0.9, 0.9, 61), np.linspace(filler.inner_radius, filler.outer_radius, 60)[1:-1]
+        angle + np.linspace(-0.7, 0.7, 61), np.linspace(filler.inner_radius, filler.outer_radius, 60)[1:-1]
     )
     points = np.stack([radius * np.cos(turn), radius * np.sin(turn)], axis=-1).reshape(-1, 2)
     room = np.minimum(radius - filler.inner_radius, filler.outer_radius - radius).ravel()
@@ -146,6 +158,11 @@ def _gap_point(cable: Cable, filler: Part, angle: float) -> NDArray[np.float64]:
 
 def _colour(part: Part) -> str:
     return part_colour(part.kind, part.material.density, part.material.E)
+
+
+def _row_name(part: Part) -> str:
+    """Kind of a layer of a core; a conductor of steel is no conductor."""
+    return "steel" if _colour(part) == STEEL else KIND_TITLES[part.kind].removeprefix("conductor ")
 
 
 def _base(name: str) -> str:

@@ -15,8 +15,7 @@ from geometry.cable import Cable
 from geometry.colour_scheme import INK, SOFT, VOID, kind_colour, part_colour
 from geometry.errors import GeometryError
 from geometry.pipe_trace import Trace, section_traces
-from geometry.section_legend import Block, legend_blocks
-from geometry.stripping import laid_in_core
+from geometry.section_legend import Block, lay_words, legend_blocks
 
 ROW = 0.085
 """Height of a line of text, as a share of the outer radius."""
@@ -47,7 +46,7 @@ def draw_cross_section(cable: Cable, path: str | Path, dpi: int = 200) -> Path:
     figure = Figure(figsize=(11.0, 6.9), facecolor="white")
     axes = figure.add_axes((0.0, 0.05, 1.0, 0.83))
     R = 1e3 * cable.outer_radius
-    axes.set(xlim=(-2.75 * R, 2.75 * R), ylim=(-1.32 * R, 1.08 * R), aspect="equal")
+    axes.set(xlim=(-2.82 * R, 2.82 * R), ylim=(-1.32 * R, 1.08 * R), aspect="equal")
     axes.axis("off")
     _fillers(axes, cable)
     colours = {p.name: part_colour(p.kind, p.material.density, p.material.E) for p in cable.parts}
@@ -93,7 +92,7 @@ def _draw(axes: Any, trace: Trace, colour: str, stranded: bool) -> None:
         face = colour
     if trace.level == "part" and trace.kind in ("wire", "armour"):
         edge, width = DARK[trace.kind], 0.5
-    axes.add_patch(PathPatch(outline, facecolor=face, edgecolor=edge, linewidth=width))
+    axes.add_artist(PathPatch(outline, facecolor=face, edgecolor=edge, linewidth=width))
 
 
 def _axis(axes: Any, R: float) -> None:
@@ -128,7 +127,7 @@ def _block(axes: Any, block: Block, side: int, y: float, R: float) -> None:
     bend = [anchor[0], side * 1.12 * R, x - side * 0.03 * R]
     axes.plot(bend, [anchor[1], y, y], color=INK, linewidth=0.7, zorder=5, path_effects=halo)
     axes.plot(*anchor, marker="o", markersize=3.4, color="white", markeredgecolor=INK, markeredgewidth=0.8, zorder=6)
-    column = x if side > 0 else x - 1.30 * R
+    column = x if side > 0 else x - 1.36 * R
     if block.title:
         axes.text(column, y, block.title, va="center", fontsize=9.5, fontweight="bold", color=INK)
     for k, row in enumerate(block.rows, 1 if block.title else 0):
@@ -139,7 +138,7 @@ def _block(axes: Any, block: Block, side: int, y: float, R: float) -> None:
         axes.add_patch(box)
         weight = "normal" if block.title else "bold"
         axes.text(column + 0.09 * R, height, row.name, va="center", fontsize=8.8, fontweight=weight, color=INK)
-        axes.text(column + 0.50 * R, height, row.size, va="center", fontsize=8.8, color=SOFT)
+        axes.text(column + 0.56 * R, height, row.size, va="center", fontsize=8.8, color=SOFT)
     if block.note:
         height = y - ROW * R * (block.lines - 1)
         axes.text(column + 0.09 * R, height, block.note, va="center", fontsize=8.8, color=SOFT)
@@ -170,24 +169,17 @@ def _dimension(axes: Any, R: float) -> None:
     axes.plot([start, start + bar], [bottom, bottom], color=INK, linewidth=2.2, solid_capstyle="butt")
     axes.text(start + bar + 0.06 * R, bottom, f"{bar:g} mm", va="center", fontsize=9, color=INK)
     arrow = {"arrowstyle": "-|>", "color": SOFT, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0}
-    x0, y0 = -2.6 * R, y - 0.07 * R
+    x0, y0 = -2.69 * R, y - 0.07 * R
     for dx, dy, name in ((0.22, 0, "x"), (0, 0.22, "y")):
         axes.annotate("", (x0 + dx * R, y0 + dy * R), (x0, y0), arrowprops=arrow)
         axes.text(x0 + 1.22 * dx * R, y0 + 1.22 * dy * R, name, fontsize=9, color=SOFT, ha="center", va="center")
 
 
 def _headline(figure: Any, cable: Cable, traces: list[Trace]) -> None:
-    if not cable.single_lay:
-        lay = "several lays"
-    elif cable.lay is None:
-        lay = "straight"
-    else:
-        lay = f"lay {1e3 * cable.lay:.4g} mm ({cable.hand}), lay angle {np.degrees(cable.lay_angle):.1f}\u00b0"
-        if (
-            cable.lay_ratio
-            and any(laid_in_core(p) and p.centre_radius > 0 for p in cable.parts)
-            and cable.lay_ratio > 1
-        ):
+    lay = lay_words(cable)
+    if cable.single_lay and cable.lay is not None:
+        lay += f", lay angle {np.degrees(cable.lay_angle):.1f}\u00b0"
+        if cable.lay_ratio is not None and any(p.kind == "insulation" and p.centre_radius > 0 for p in cable.parts):
             lay += f", lay ratio {cable.lay_ratio:.1f}"
     title = "\n".join(textwrap.wrap(cable.title, 95))
     figure.text(0.03, 0.945, title, fontsize=12.5, fontweight="bold", color=INK, va="center")
