@@ -10,15 +10,18 @@ from geometry.cell_mesh import CellBlock, CrossSectionMesh, Region, SliceMesh, S
 from geometry.clearance import Clearance, Member, clearances, helix_distance
 from geometry.cutaway_picture import draw_cutaway
 from geometry.data_sheet import DataSheetRow, data_sheet_rows
+from geometry.doubled_nodes import DoubledMesh, FacePairs, double_nodes
 from geometry.errors import ConvergenceError, GeometryError, InputError, MeshError, SpecError
 from geometry.helical_slice import helical_slice
 from geometry.helix import Helix, lay_angle
+from geometry.interface import Interface, interfaces, select_interfaces
 from geometry.material import Material
 from geometry.mesh_file import write_mesh
-from geometry.mesh_quality import element_sizes, region_sizes, scaled_jacobian
-from geometry.nested_helix import CentreLine, nested_helix
-from geometry.section_mesh import cross_section_mesh
 from geometry.mesh_picture import draw_mesh, draw_swept_cell
+from geometry.mesh_quality import element_sizes, quality_histogram, region_sizes, scaled_jacobian, share_below
+from geometry.nested_helix import CentreLine, nested_helix
+from geometry.quality_picture import draw_quality
+from geometry.section_mesh import cross_section_mesh
 from geometry.section_picture import draw_cross_section
 from geometry.sized_slice import slice_of_size, slice_record
 from geometry.strand import Conductor, Strand
@@ -35,9 +38,12 @@ __all__ = [
     "ConvergenceError",
     "CrossSectionMesh",
     "DataSheetRow",
+    "DoubledMesh",
+    "FacePairs",
     "GeometryError",
     "Helix",
     "InputError",
+    "Interface",
     "MarkedNumber",
     "Material",
     "Member",
@@ -58,19 +64,25 @@ __all__ = [
     "cross_section_mesh",
     "data_sheet_rows",
     "describe",
+    "double_nodes",
     "draw_cross_section",
     "draw_cutaway",
     "draw_mesh",
+    "draw_quality",
     "draw_swept_cell",
     "element_sizes",
     "helical_slice",
     "helix_distance",
+    "interfaces",
     "lay_angle",
     "marked_rows",
     "nested_helix",
+    "quality_histogram",
     "read_cable",
     "region_sizes",
     "scaled_jacobian",
+    "select_interfaces",
+    "share_below",
     "slice_of_size",
     "slice_record",
     "write_mesh",

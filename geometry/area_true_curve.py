@@ -37,12 +37,12 @@ def area_true_points(
 
     Examples
     --------
-    A circle of radius 1 as a polygon of 12 edges:
+    A circle of radius 1 as a polygon of 12 edges; the inscribed one has 0.955 of the area:
 
     >>> circle = WireTrace(0.0, 0.0, 1.0, 0.0)
     >>> x, y = area_true_points(circle, circle.point(2 * np.pi * np.arange(12) / 12), [(k, (k + 1) % 12) for k in range(12)]).T
-    >>> round(0.5 * sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / np.pi, 3)
-    0.999
+    >>> round(float(0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / np.pi), 3)
+    0.998
     """
     edges = np.asarray(edges, dtype=np.int64).reshape(-1, 2)
     phi = curve.nearest(points)

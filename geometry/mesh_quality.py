@@ -125,7 +125,7 @@ def quality_histogram(
     """
     if bins < 1:
         raise MeshError(f"a histogram needs at least one bin, found {bins}.")
-    edges = np.concatenate([[-1.0], np.linspace(0.0, 1.0, bins + 1)])
+    edges = np.concatenate([[-1.0], np.arange(bins + 1) / bins])
     quality = mesh if isinstance(mesh, np.ndarray) else scaled_jacobian(mesh)
     counts, _ = np.histogram(np.clip(quality, -1.0, 1.0), edges)
     return counts.astype(np.int64), edges

@@ -6,6 +6,7 @@ import pytest
 from geometry import (
     CellBlock,
     CrossSectionMesh,
+    GeometryError,
     Material,
     MeshError,
     Region,
@@ -16,6 +17,7 @@ from geometry import (
 )
 from geometry.cell_face import FACES
 from geometry.mesh_quality import block_quality, block_sizes, quality_histogram, share_below
+from geometry.quality_picture import POOR, draw_quality
 
 REGION = (Region("all", "sheath", Material("x", 1.0, 0.3, 1.0), np.nan),)
 
@@ -174,3 +176,18 @@ def test_twisted_hexahedron_against_a_dense_sum():
                 ]
                 total += np.linalg.det(J) / 1000
     assert element_sizes(solid(points, "hexahedron"))[0] == pytest.approx(total, rel=2e-2)
+
+
+def test_the_histogram_is_drawn(tmp_path):
+    """Bars of poor elements have a colour of their own, which a perfect mesh does not show."""
+    import matplotlib.image
+    from matplotlib.colors import to_rgb
+
+    def poor(mesh, name):
+        image = matplotlib.image.imread(draw_quality(mesh, tmp_path / name, dpi=50))[..., :3]
+        return (np.abs(image - to_rgb(POOR)).max(axis=-1) < 0.02).sum()
+
+    assert poor(solid(lifted(SQUARE), "hexahedron"), "cube.png") == 0
+    assert poor(blocks_of_two_kinds(), "deep/two.png") > 20
+    with pytest.raises(GeometryError, match=r"\.png"):
+        draw_quality(blocks_of_two_kinds(), tmp_path / "quality.xyz")
