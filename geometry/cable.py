@@ -233,7 +233,7 @@ class Cable:
 
 def lay_words(rate: float) -> str:
     """A twist rate [rad/m] as lay and hand, such as "234 mm Z", or "straight"."""
-    return f"{2e3 * np.pi / abs(rate):.4g} mm {'Z' if rate > 0 else 'S'}" if rate else "straight"
+    return f"{2e3 * np.pi / abs(rate):.5g} mm {'Z' if rate > 0 else 'S'}" if rate else "straight"
 
 
 def ring_moments(

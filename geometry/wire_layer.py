@@ -193,7 +193,7 @@ def _check_neighbours(layer: WireLayer) -> None:
     advice = []
     fitting = shortest_lay(layer.count, layer.radius, layer.diameter, layer.lay)
     if fitting is not None and layer.lay is not None:
-        at += f" at a lay of {1e3 * layer.lay:.4g} mm ({np.degrees(layer.lay_angle):.1f} deg)"
+        at += f" at a lay of {1e3 * layer.lay:.5g} mm ({np.degrees(layer.lay_angle):.1f} deg)"
         advice.append(f"lengthen the lay to at least {1e3 * np.ceil(1e4 * fitting) / 1e4:.1f} mm")
     elif layer.lay is not None:
         at += ", at any lay"

@@ -101,7 +101,7 @@ def clearance_rows(cable: Cable) -> list[tuple[str, str]]:
     """Neighbours and the gap between them along the lay, smallest first; pairs that are alike share a row in long lists."""
     found = neighbour_clearances(cable)
     names = [f"{c.first} - {c.second}" for c in found]
-    gaps = [f"{1e3 * c.gap + 0.0:.3f}" for c in found]
+    gaps = [f"{round(1e3 * c.gap, 3) + 0.0:.3f}" for c in found]
     rows = list(zip(names, gaps, strict=True))
     if len(rows) <= MOST_ROWS:
         return rows
