@@ -54,6 +54,7 @@ def part_colour(kind: str, density: float, modulus: float) -> str:
     >>> part_colour("conductor", 7850.0, 200e9) == STEEL, part_colour("conductor", 6343.0, 80e9) == KIND_COLOURS["conductor"]
     (True, True)
     """
+    kind = "conductor" if kind == "strand" else kind
     if kind != "conductor" or density <= 0 or modulus / density < 18e6:
         return kind_colour(kind)
     return STEEL if density > 3200 else ALUMINIUM

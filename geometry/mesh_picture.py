@@ -78,7 +78,7 @@ def draw_mesh(section: CrossSectionMesh, path: str | Path, title: str = "", dpi:
 
 
 def draw_swept_cell(
-    cell: SweptCell | SliceMesh, path: str | Path, title: str = "", size: tuple[int, int] = (1800, 1200)
+    cell: SweptCell | SliceMesh, path: str | Path, title: str = "", size: tuple[int, int] = (1600, 1050)
 ) -> Path:
     """Render the mesh of a cell cut open: every region ends before the one below it, with the edges of its elements.
 
@@ -121,8 +121,10 @@ def region_ends(cell: SweptCell | SliceMesh) -> dict[str, float]:
             -order.get(k, 0),
         ),
     )
-    weights = [max(WEIGHTS.get(k, 1.0), 0.6) for k in kinds]
-    return dict(zip(kinds, (np.cumsum(weights) / sum(weights)).tolist(), strict=True))
+    weights = [max(WEIGHTS.get(k, 1.0), 0.6) for k in kinds if k not in LAST[:-1] or LAST[-1] not in kinds]
+    weights += [0.0] * (len(kinds) - len(weights))
+    ends = dict(zip(kinds, (np.cumsum(weights) / sum(weights)).tolist(), strict=True))
+    return {kind: 1.0 if kind in LAST else end for kind, end in ends.items()}
 
 
 def cell_surfaces(cell: SweptCell | SliceMesh, ends: dict[str, float]) -> Iterator[Surface]:
@@ -130,7 +132,7 @@ def cell_surfaces(cell: SweptCell | SliceMesh, ends: dict[str, float]) -> Iterat
     found: dict[int, list[tuple[NDArray[np.int64], NDArray[np.int64]]]] = {3: [], 4: []}
     for kind, cells, region_of in _blocks(cell):
         cut = np.array([ends[region.kind] for region in cell.regions]) * cell.height
-        kept = cell.points[cells, 2].mean(1) < cut[region_of] * (1 + 1e-9)
+        kept = cell.points[cells, 2].min(1) < cut[region_of] - 1e-6 * cell.height  # whole layers of cells
         for face in FACES[kind]:
             found[len(face)].append((cells[kept][:, face], region_of[kept]))
     weights = np.random.default_rng(0).integers(1, 2**62, len(cell.points), dtype=np.uint64)
@@ -148,7 +150,7 @@ def _coloured(cell: SweptCell | SliceMesh, faces: NDArray[np.int64], region: NDA
     for colour in np.unique(colours[region]):
         mine = faces[colours[region] == colour]
         nodes, numbered = np.unique(mine, return_inverse=True)
-        yield Surface(cell.points[nodes], numbered.reshape(mine.shape), str(colour), smooth=False, edges=True)
+        yield Surface(cell.points[nodes], numbered.reshape(mine.shape), str(colour), smooth=False, gloss=(0.0, 1), edges=True)
 
 
 def _cell_labels(cell: SweptCell | SliceMesh, ends: dict[str, float], view: View) -> list[Label]:
@@ -162,9 +164,9 @@ def _cell_labels(cell: SweptCell | SliceMesh, ends: dict[str, float], view: View
         points = cell.points[nodes]
         middle = 0.5 * (begin + end) * cell.height
         near = points[np.abs(points[:, 2] - middle) <= np.abs(points[:, 2] - middle).min() + 1e-9]
-        if kind != "cover":
-            labels.append(Label(KIND_TITLES.get(kind, kind), near[np.argmax(near @ view.axes[2])]))
-        begin = end
+        if kind != "cover" and not (kind == "conductor" and "strand" in ends):
+            labels.append(Label(KIND_TITLES.get(kind, f"{kind}s"), near[np.argmax(near @ view.axes[2])]))
+            begin = end
     return labels
 
 

@@ -124,7 +124,7 @@ def _add(pyvista: Any, plotter: Any, surface: Surface) -> None:
     specular, power = surface.gloss
     style = {"specular": specular, "specular_power": power, "ambient": 0.28, "diffuse": 0.85}
     if surface.edges:
-        style |= {"show_edges": True, "edge_color": INK, "line_width": 0.6}
+        style |= {"show_edges": True, "edge_color": INK, "edge_opacity": 0.5, "line_width": 1.0}
     plotter.add_mesh(mesh, color=surface.colour, smooth_shading=surface.smooth, **style)
 
 
@@ -191,8 +191,11 @@ def _draw_labels(axes: Any, view: View, labels: Sequence[Label]) -> None:
             if column - half < right and column + half > left and out * (far - row) > 0:
                 row = far
         row = float(np.clip(row, 0.13 * height + tall, 0.99 * height - tall))
+        for left, right, far in taken[above]:  # no room further out: beside
+            if column - half < right and column + half > left and out * (far - row) > 0:
+                column = right + half
         taken[above].append((column - half, column + half, row + out * tall))
-        axes.plot([spot[0], spot[0]], [spot[1], row], color=INK, linewidth=0.9, path_effects=halo, zorder=3)
+        axes.plot([spot[0], column], [spot[1], row], color=INK, linewidth=0.9, path_effects=halo, zorder=3)
         axes.plot(*spot, marker="o", markersize=4.5, color="white", markeredgecolor=INK, zorder=4)
         axes.text(
             column, row + out * 6, label.text, ha="center", va="bottom" if above else "top", fontsize=11, color=INK,
