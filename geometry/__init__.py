@@ -8,6 +8,7 @@ from geometry.cable_file import BuiltinCable, builtin_cables, cable_files, read_
 from geometry.cable_table import Row, describe, marked_rows
 from geometry.cell_mesh import CellBlock, CrossSectionMesh, Region, SliceMesh, SweptCell
 from geometry.clearance import Clearance, Member, clearances, helix_distance
+from geometry.conductor_section import ConductorSection, conductor_section
 from geometry.cutaway_picture import draw_cutaway
 from geometry.data_sheet import DataSheetRow, data_sheet_rows
 from geometry.doubled_nodes import DoubledMesh, FacePairs, double_nodes
@@ -35,6 +36,7 @@ __all__ = [
     "CentreLine",
     "Clearance",
     "Conductor",
+    "ConductorSection",
     "ConvergenceError",
     "CrossSectionMesh",
     "DataSheetRow",
@@ -61,6 +63,7 @@ __all__ = [
     "builtin_cables",
     "cable_files",
     "clearances",
+    "conductor_section",
     "cross_section_mesh",
     "data_sheet_rows",
     "describe",

@@ -17,7 +17,6 @@ that it maps on itself node for node; fold is the greatest common divisor of the
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -25,18 +24,21 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.disc_grid import DiscGrid, disc_grid, node_multiple
+from geometry.disc_grid import disc_grid, node_multiple
 from geometry.errors import GeometryError, MeshError
 from geometry.strand import layer_radii
-from geometry.strand_contact import RING, Contact, StrandPlace, find_contacts, turned
+from geometry.strand_contact import REACH, RING, Contact, StrandPlace, centre_of, find_contacts, turned
+from geometry.strand_outline import StrandOutline, run_into, strand_outline
 from geometry.wire_trace import WireTrace
 
 MISFIT = 0.03
 """Largest misfit of a stated conductor radius, as a fraction of the radius over the strands."""
 PATCH = 0.8
 """Longest distance of ring nodes over the strand radius: longer ones stand off the strand by a fifth of its radius."""
-EVEN = 1e-6
-"""Pieces of outline that differ by less than this fraction of the strand radius count as equal."""
+COARSEST = 0.6
+"""Largest distance of the nodes on a strand over its radius."""
+FINER = (1.0, 0.7, 0.5)
+"""Fractions of the wanted distance that are tried in turn until the outlines are clear of each other."""
 
 
 @dataclass(frozen=True)
@@ -85,8 +87,8 @@ def conductor_section(
     strand_radius, conductor_radius : [m]; the conductor's may differ by up to 3 % from the radius over the strands
     turn_rate : 2 pi / lay per arc length of the conductor [rad/m], signed; 0 for straight strands
     ring_nodes : N, nodes of the circle about the conductor; even and a multiple of the fold
-    size : distance [m] of the nodes on the outline of a strand; None takes that of the ring nodes. From strand_radius on,
-        the strands are meshed as coarsely as can be.
+    size : distance [m] of the nodes on the outline of a strand; None takes that of the ring nodes. Values above 0.6 strand
+        radii change nothing any more.
 
     Raises
     ------
@@ -118,17 +120,32 @@ def conductor_section(
     fold = section_fold(layers, ring_nodes)
     _check_ring(ring_nodes, fold, conductor_radius, strand_radius * scale, sum(layers) == 1)
     size = 2 * np.pi * conductor_radius / ring_nodes if size is None else size
+    if not size > 0:
+        raise MeshError(f"the distance of the nodes on a strand must be positive, found {1e3 * size:g} mm.")
     ring = _ring(conductor_radius, ring_nodes)
     if sum(layers) == 1:
-        return _whole_disc(ring, fold, conductor_radius, scale, size)
+        return _whole_disc(ring, fold, conductor_radius, scale)
     places = tuple(
         StrandPlace(k, radius * scale, 2 * np.pi * i / count, strand_radius)
         for k, (count, radius) in enumerate(zip(layers, radii, strict=True))
         for i in range(count)
     )
     traces = [WireTrace(p.centre_radius, p.phase, p.radius * scale, turn_rate) for p in places]
-    contacts = find_contacts(places, traces, layers, fold, ring, size)
-    return _assembled(places, traces, contacts, layers, fold, ring, conductor_radius, scale, size)
+    sector = _sector(layers, fold)
+    contacts, outlines = _fitting_outlines(places, traces, layers, sector, ring, size)
+    points, cells, strand_of = _turned_copies(outlines, sector, places, fold, ring)
+    return ConductorSection(
+        points=points,
+        cells=cells,
+        strand_of=strand_of,
+        ring=np.arange(ring_nodes),
+        fold=fold,
+        strands=places,
+        contacts=tuple(sorted((c.first, c.second) for c in contacts)),
+        conductor_radius=conductor_radius,
+        strand_scale=scale,
+        closed_gap=max((c.gap for c in contacts if c.first != RING), default=0.0),
+    )
 
 
 def section_fold(layers: tuple[int, ...], ring_nodes: int) -> int:
@@ -165,149 +182,114 @@ def _ring(radius: float, count: int) -> NDArray[np.float64]:
     return radius * np.sqrt(step / np.sin(step)) * np.column_stack([np.cos(angle), np.sin(angle)])
 
 
-def _whole_disc(ring: NDArray[np.float64], fold: int, radius: float, scale: float, size: float) -> ConductorSection:
-    grid = disc_grid(ring, fold, _rings(radius, size))
+def _whole_disc(ring: NDArray[np.float64], fold: int, radius: float, scale: float) -> ConductorSection:
+    grid = disc_grid(ring, fold)
     strand_of = np.zeros(len(grid.cells), dtype=np.int64)
     place = (StrandPlace(0, 0.0, 0.0, radius),)
     nodes = np.arange(len(ring))
     return ConductorSection(grid.points, grid.cells, strand_of, nodes, fold, place, ((RING, 0),), radius, scale, 0.0)
 
 
-def _rings(radius: float, size: float) -> int | None:
-    """No rings in strands that are wanted as coarse as can be."""
-    return 0 if size >= radius else None
+def _sector(layers: tuple[int, ...], fold: int) -> dict[int, list[int]]:
+    """Strands of one sector, each with its images under turns of 0, 1, 2 ... times 2 pi / fold; the centre has but itself."""
+    sector, start = {}, 0
+    for layer in layers:
+        if start == 0 and layer == 1:
+            sector[0] = [0]
+        else:
+            share = layer // fold
+            sector |= {start + k: [start + k + share * copy for copy in range(fold)] for k in range(share)}
+        start += layer
+    return sector
 
 
-def _assembled(
+def _fitting_outlines(
     places: Sequence[StrandPlace],
     traces: Sequence[WireTrace],
-    contacts: Sequence[Contact],
     layers: tuple[int, ...],
-    fold: int,
+    sector: dict[int, list[int]],
     ring: NDArray[np.float64],
-    conductor_radius: float,
-    scale: float,
     size: float,
-) -> ConductorSection:
-    """Mesh the strands of one sector, turn them into place, and give common nodes one number."""
-    points, cells, strand_of = [ring], [], []
-    start, count = 0, len(ring)
-    outlines: dict[int, NDArray[np.float64]] = {}
-    for layer in layers:
-        centre = layer == 1 and start == 0
-        sector = range(start, start + (1 if centre else layer // fold))
-        for strand in sector:
-            pattern = fold if centre and fold not in (1, 2, 4) else 4
-            target = float(np.pi * places[strand].radius ** 2 / np.cos(traces[strand].lay_angle))
-            touching = [c for c in contacts if strand in (c.first, c.second)]
-            outline = _outline(strand, traces[strand], touching, target, node_multiple(pattern), size)
-            outlines[strand] = outline
-            grid = _grid(strand, outline, pattern, _rings(places[strand].radius, size))
-            for copy in range(1 if centre else fold):
-                points.append(turned(grid.points, 2 * np.pi * copy / fold))
-                cells.append(grid.cells + count)
-                strand_of.append(np.full(len(grid.cells), strand + copy * len(sector)))
-                count += len(grid.points)
-        start += layer
-    merged, number = _merged(np.vstack(points), 1e-6 * places[0].radius)
-    return ConductorSection(
-        points=merged,
-        cells=number[np.vstack(cells)],
-        strand_of=np.concatenate(strand_of),
-        ring=number[: len(ring)],
-        fold=fold,
-        strands=tuple(places),
-        contacts=tuple(sorted((c.first, c.second) for c in contacts)),
-        conductor_radius=conductor_radius,
-        strand_scale=scale,
-        closed_gap=max((c.gap for c in contacts if c.first != RING), default=0.0),
-    )
+) -> tuple[list[Contact], dict[int, StrandOutline]]:
+    """Contacts, and outlines of the strands of one sector, with finer edges where coarse ones run into each other."""
+    fold = section_fold(layers, len(ring))
+    size = min(size, COARSEST * traces[0].radius)
+    for finer in FINER:
+        contacts = find_contacts(places, traces, layers, fold, ring, finer * size)
+        outlines = {
+            k: _outline(k, places[k], traces[k], contacts, _pattern(k, places, fold), finer * size) for k in sector
+        }
+        hit = _collision(outlines, sector, places, fold, ring)
+        if hit is None:
+            return contacts, outlines
+    raise MeshError(f"{hit}: take more ring nodes or a smaller size.")
 
 
-def _grid(strand: int, outline: NDArray[np.float64], pattern: int, rings: int | None) -> DiscGrid:
-    try:
-        return disc_grid(outline, pattern, rings)
-    except MeshError as error:
-        raise MeshError(f"strand {strand} of the conductor: {error}") from error
+def _pattern(strand: int, places: Sequence[StrandPlace], fold: int) -> int:
+    """Sectors of the disc grid of a strand: the square, but in the centre one that has the symmetry of the section."""
+    return fold if places[strand].centre_radius == 0 and fold not in (1, 2, 4) else 4
 
 
 def _outline(
-    strand: int, trace: WireTrace, touching: Sequence[Contact], target: float, multiple: int, size: float
-) -> NDArray[np.float64]:
-    """Boundary nodes of one strand: shared nodes at its contacts, free ones on its trace moved out to give the area."""
-    centre = trace.centre_radius * np.array([np.cos(trace.phase), np.sin(trace.phase)])
-    shared = [c.nodes if c.first in (strand, RING) else c.nodes[::-1] for c in touching]
-    middles = np.array([nodes.mean(0) - centre for nodes in shared])
-    turn = np.arctan2(middles[:, 1], middles[:, 0]) - trace.phase
-    shared = [shared[k] for k in np.argsort(np.round(turn, 9) % (2 * np.pi))]
-    ends = np.vstack([[nodes[0], nodes[-1]] for nodes in shared])
-    phi = trace.nearest(ends).reshape(-1, 2)
-    width = (phi[:, 1] - phi[:, 0] + np.pi) % (2 * np.pi) - np.pi
-    gap = (np.roll(phi[:, 0], -1) - phi[:, 0]) % (2 * np.pi)
-    gap[gap < 1e-9] = 2 * np.pi
-    free = gap - width
-    if free.min() <= 0:
-        raise GeometryError(
-            f"two contacts of strand {strand} of the conductor run into each other: take more ring nodes or a smaller size."
-        )
-    counts = _edge_counts(free * trace.radius, sum(len(nodes) - 1 for nodes in shared), multiple, size, trace.radius)
-    nodes, normals = [], []
-    for piece, end, width_free, count in zip(shared, phi[:, 1], free, counts, strict=True):
-        angles = end + width_free * np.arange(1, count) / count
-        slope = trace.derivative(angles)
-        nodes += [piece, trace.point(angles)]
-        outward = np.column_stack([slope[:, 1], -slope[:, 0]])
-        normals += [np.zeros_like(piece), outward / np.linalg.norm(outward, axis=1, keepdims=True)]
-    return _with_area(np.vstack(nodes), np.vstack(normals), target, strand)
+    strand: int, place: StrandPlace, trace: WireTrace, contacts: Sequence[Contact], pattern: int, size: float
+) -> StrandOutline:
+    exact_area = WireTrace(place.centre_radius, place.phase, place.radius, trace.twist_rate).area
+    touching = [c for c in contacts if strand in (c.first, c.second)]
+    return strand_outline(strand, trace, touching, exact_area, node_multiple(pattern), size)
 
 
-def _edge_counts(
-    lengths: NDArray[np.float64], shared: int, multiple: int, size: float, radius: float
-) -> NDArray[np.int64]:
-    """Edges of each free piece of an outline, equal on equal pieces, so that the total is a multiple and the size about kept."""
-    _, group = np.unique(np.round(lengths / (EVEN * radius)), return_inverse=True)
-    for groups in (group, np.arange(len(lengths))):
-        wanted = np.array([lengths[groups == g].mean() / size for g in range(groups.max() + 1)])
-        weight = np.bincount(groups)
-        base = np.maximum(1, np.round(wanted)).astype(int)
-        reach = range(-1, 4) if len(base) <= 4 else range(0, 2)
-        best, least = None, np.inf
-        for change in itertools.product(reach, repeat=len(base)):
-            edges = base + np.array(change)
-            if edges.min() < 1 or edges.max() < 2 or (shared + (weight * edges).sum()) % multiple:
-                continue
-            cost = float((weight * np.log(edges / wanted) ** 2).sum())
-            if cost < least:
-                best, least = edges, cost
-        if best is not None:
-            return best[groups]
-    raise MeshError(
-        "no number of nodes suits the outline of a strand: take another number of ring nodes or another size."
-    )
+def _collision(
+    outlines: dict[int, StrandOutline],
+    sector: dict[int, list[int]],
+    places: Sequence[StrandPlace],
+    fold: int,
+    ring: NDArray[np.float64],
+) -> str | None:
+    """The first strand with a free node inside a neighbour or outside the ring, in words; None if there is none."""
+    radius = places[0].radius
+    for strand, outline in outlines.items():
+        free = outline.nodes[outline.free]
+        name = f"strand {strand} of a conductor, as a polygon of {len(outline.nodes)} nodes, runs into"
+        if not run_into(free, ring).all():
+            return f"{name} the ring"
+        for other, images in sector.items():
+            for copy, image in enumerate(images):
+                apart = float(np.linalg.norm(centre_of(places[image]) - centre_of(places[strand])))
+                near = image != strand and apart < REACH * radius
+                if near and run_into(free, turned(outlines[other].nodes, 2 * np.pi * copy / fold)).any():
+                    return f"{name} strand {image}"
+    return None
 
 
-def _with_area(
-    nodes: NDArray[np.float64], normals: NDArray[np.float64], target: float, strand: int
-) -> NDArray[np.float64]:
-    """Move the free nodes along their normals by one distance so that the polygon has the area `target` [m^2]."""
-
-    def area(p: NDArray[np.float64], q: NDArray[np.float64]) -> float:
-        return float(0.5 * (p[:, 0] * np.roll(q[:, 1], -1) - np.roll(q[:, 0], -1) * p[:, 1]).sum())
-
-    constant, square = area(nodes, nodes) - target, area(normals, normals)
-    slope = area(nodes, normals) + area(normals, nodes)
-    inside = slope**2 - 4 * square * constant
-    if slope <= 0 or inside <= 0:
-        raise GeometryError(f"strand {strand} of the conductor is pressed from all sides: it cannot keep its area.")
-    return nodes - 2 * constant / (slope + np.sqrt(inside)) * normals
+def _turned_copies(
+    outlines: dict[int, StrandOutline],
+    sector: dict[int, list[int]],
+    places: Sequence[StrandPlace],
+    fold: int,
+    ring: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+    """Points (the ring first), cells, and the strand of each cell: the strands of one sector meshed and turned into place."""
+    points, cells, strand_of, count = [ring], [], [], len(ring)
+    for strand, images in sector.items():
+        try:
+            grid = disc_grid(outlines[strand].nodes, _pattern(strand, places, fold))
+        except MeshError as error:
+            raise MeshError(f"strand {strand} of a conductor: {error}") from error
+        for copy, image in enumerate(images):
+            points.append(turned(grid.points, 2 * np.pi * copy / fold))
+            cells.append(grid.cells + count)
+            strand_of.append(np.full(len(grid.cells), image))
+            count += len(grid.points)
+    merged, number = _merged(np.vstack(points), 1e-6 * places[0].radius)
+    return merged, number[np.vstack(cells)], np.concatenate(strand_of)
 
 
 def _merged(points: NDArray[np.float64], tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Points without repetition, and the new number of each; the first of several is kept."""
-    from scipy.spatial import cKDTree  # slow to load, needed here only
+    from scipy.spatial import KDTree  # slow to load, needed here only
 
     first = np.arange(len(points))
-    for i, j in sorted(cKDTree(points).query_pairs(tolerance)):
+    for i, j in sorted(KDTree(points).query_pairs(tolerance)):
         first[j] = min(first[j], first[i])
     kept, number = np.unique(first, return_inverse=True)
     return points[kept], number.astype(np.int64)

@@ -80,7 +80,7 @@ def disc_grid(boundary: NDArray[np.float64], sectors: int = 4, rings: int | None
     rings = max(1, round(0.06 * n)) if rings is None else rings
     count, cells = _square(n // 4, rings) if sectors == 4 else _kites(sectors, n // (2 * sectors), rings)
     grids = [_drawn(boundary, start, count, cells) for start in range(n // sectors)]
-    best = max(grids, key=lambda grid: round(grid.quality, 9))
+    best = max(grids, key=lambda grid: round(grid.quality, 6))
     if not best.quality > 0:
         raise MeshError(
             f"no regular mesh fits inside a closed curve of {n} nodes: its corners are too sharp or its spacing too uneven "

@@ -5,8 +5,9 @@ Optimization, 2004, section 8.2.2), negative where they overlap:
 
 .. math::  g = \max_{|n| = 1} \Bigl( \min_{x \in b} n \cdot x - \max_{x \in a} n \cdot x \Bigr) .
 
-They share a flat, normal to that n, half-way between the two support points, if g is below `CLOSED` strand radii. A strand
-that would hang free is held by its nearest neighbour, up to `HELD`; in a real conductor it would have settled there.
+They share a flat, normal to that n, half-way between the two support points, if g is below `CLOSED` strand radii; where the
+pattern was scaled down to a stated diameter, strands of their full radius are meant. A strand that would hang free is held by
+its nearest neighbour, up to `HELD`; in a real conductor it would have settled there.
 Strands of the outermost layer share edges with the circle about the conductor.
 """
 
@@ -31,6 +32,8 @@ OVERLAP = 0.15
 """Overlaps beyond this fraction of the strand radius are refused."""
 HALF_WIDTH = 0.3
 """Largest half-width of a flat over the strand radius."""
+TWO_EDGES = 0.55
+"""Flats have one edge if the nodes are farther apart than this many strand radii."""
 REACH = 2.75
 """Strands whose centres are farther apart than this many strand radii are not neighbours."""
 TIE = 1e-6
@@ -99,7 +102,7 @@ def find_contacts(
     touches = {}
     for orbit in orbits:
         a, b = orbit[0]
-        if np.linalg.norm(_centre(places[a]) - _centre(places[b])) > REACH * radius:
+        if np.linalg.norm(centre_of(places[a]) - centre_of(places[b])) > REACH * radius:
             continue
         touch = _touch(traces[a], traces[b])
         if touch.gap < -OVERLAP * radius:
@@ -108,11 +111,12 @@ def find_contacts(
                 "them thinner, or lengthen their lay."
             )
         touches[orbit] = touch
+    pressed = 2 * max(0.0, places[0].radius - radius)
     outer = range(len(places) - layers[-1], len(places))
-    closed = _closed(orbits, touches, outer, len(places), radius)
+    closed = _closed(orbits, touches, outer, len(places), radius, CLOSED * radius + pressed)
     apart = _least_angle(closed, touches, places, outer, fold)
     half = min(0.6 * size, HALF_WIDTH * radius, 0.3 * apart * radius)
-    edges = 1 if size > 0.6 * radius else 2
+    edges = 1 if size > TWO_EDGES * radius else 2
     contacts = [_ring_contact(b, places[b].phase, ring) for b in outer]
     for orbit in closed:
         touch = touches[orbit]
@@ -152,7 +156,8 @@ def _orbits(layers: tuple[int, ...], fold: int) -> list[tuple[tuple[int, int], .
     return orbits
 
 
-def _centre(member: StrandPlace | WireTrace) -> NDArray[np.float64]:
+def centre_of(member: StrandPlace | WireTrace) -> NDArray[np.float64]:
+    """Centre (2,) [m] of a strand in the plane."""
     return member.centre_radius * np.array([np.cos(member.phase), np.sin(member.phase)])
 
 
@@ -160,7 +165,7 @@ def _touch(a: WireTrace, b: WireTrace) -> _Touch:
     """Largest separation of two traces over all directions near the line of their centres."""
     from scipy.optimize import minimize_scalar  # slow to load, needed here only
 
-    line = _centre(b) - _centre(a)
+    line = centre_of(b) - centre_of(a)
     base = float(np.arctan2(line[1], line[0]))
 
     def support(angle: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
@@ -174,7 +179,7 @@ def _touch(a: WireTrace, b: WireTrace) -> _Touch:
     found = minimize_scalar(
         lambda x: -separation(base + x), bounds=(-0.5, 0.5), method="bounded", options={"xatol": 1e-9}
     )
-    n, pa, pb = support(base + round(float(found.x), 7))
+    n, pa, pb = support(base + round(float(found["x"]), 7))
     return _Touch((pa + pb) / 2, n, float(n @ (pb - pa)))
 
 
@@ -194,8 +199,9 @@ def _closed(
     outer: range,
     count: int,
     radius: float,
+    near: float,
 ) -> list[tuple[tuple[int, int], ...]]:
-    """Orbits of pairs that become contacts: all near ones, then the nearest until every strand is tied to the ring."""
+    """Orbits of pairs that become contacts: all with gaps up to `near`, then the nearest until every strand is tied to the ring."""
     group = np.arange(count + 1)
     group[list(outer)] = count
     group[-1] = count
@@ -205,7 +211,7 @@ def _closed(
             group[group == group[a]] = group[b]
 
     ranked = sorted((o for o in orbits if o in touches), key=lambda o: touches[o].gap)
-    closed = [o for o in ranked if touches[o].gap <= CLOSED * radius]
+    closed = [o for o in ranked if touches[o].gap <= near]
     for orbit in closed:
         tie(orbit)
     while (group != group[-1]).any():
