@@ -12,10 +12,13 @@ from scipy.optimize import minimize_scalar
 
 from geometry import read_cable
 from geometry.bent_lay import lay_rate, relative_turn_rate
-from geometry.common_period import ECONOMY, LayeredLay, cell_of, common_period
+from geometry.common_period import cell_of, common_period
 from geometry.errors import GeometryError
 from geometry.helix import Helix
+from geometry.matched_lay import LayeredLay
 from geometry.nested_helix import nested_helix
+from geometry.period_search import ECONOMY
+from geometry.strand import stranded_conductor
 
 DEGREE = float(np.radians(1))
 FEW = settings(max_examples=15, deadline=None)
@@ -161,6 +164,25 @@ def test_mirror_image(layers, twist):
     assert [layer.change for layer in other.layers] == pytest.approx([layer.change for layer in one.layers], abs=1e-9)
 
 
+@pytest.mark.parametrize(("tolerance", "turns"), [(0.7, [2, 3]), (0.4, [3, 4]), (0.15, [5, 7])])
+def test_longer_periods_with_less_change_are_not_sought_for_ever(tolerance, turns):
+    """Spacings of 10 and 7.2 mm meet roughly at 20, better at 30, well at 50 mm: the shortest within the tolerance is taken."""
+    layers = [
+        LayeredLay(f"{n}", np.tan(15 * DEGREE) * p / (2 * np.pi), p, "Z", n) for n, p in ((30, 0.300), (40, 0.288))
+    ]
+    cell = common_period(layers, tolerance=tolerance * DEGREE)
+    assert [layer.turns for layer in cell.layers] == turns
+
+
+def test_symmetry_of_a_conductor_of_several_layers(reference):
+    """6 and 12 strands of one lay come to stand as before after a sixth of a turn; the centre strand asks for nothing."""
+    strand = reference.conductors["power"].strand
+    conductors = {**reference.conductors, "power": stranded_conductor("power", strand, (1, 6, 12), 0.2, "Z", None)}
+    power = cell_of(replace(reference, conductors=conductors)).layer("power")
+    assert power.fold == 6
+    assert power.nominal.radius == pytest.approx(2 * strand.diameter)
+
+
 def test_one_layer_needs_no_adjustment():
     """l = p / n, the slice of a single lay."""
     cell = common_period([by_angle("wires", 0.01, 15.0, 6)])
@@ -227,8 +249,12 @@ def test_refusal_names_the_layer_and_what_would_do():
     with pytest.raises(GeometryError) as refused:
         common_period(THREE_CORE_CABLE, tolerance=0.02 * DEGREE)
     sentence = str(refused.value)
-    assert re.search(r"lay angle of \S+( armour)? would change by [+-]0\.02\d deg \(lay from [\d.]+ mm to [\d.]+ mm\)", sentence)
-    period, tolerance = map(float, re.search(r"period of ([\d.]+) mm, or a tolerance of ([\d.]+) deg", sentence).groups())
+    assert re.search(
+        r"lay angle of \S+( armour)? would change by [+-]0\.02\d deg \(lay from [\d.]+ mm to [\d.]+ mm\)", sentence
+    )
+    period, tolerance = map(
+        float, re.search(r"period of ([\d.]+) mm, or a tolerance of ([\d.]+) deg", sentence).groups()
+    )
     assert common_period(THREE_CORE_CABLE, tolerance=0.02 * DEGREE, longest=1e-3 * period).height <= 1e-3 * period
     assert common_period(THREE_CORE_CABLE, tolerance=tolerance * DEGREE).height < 0.3
     with pytest.raises(GeometryError) as short:
@@ -238,9 +264,13 @@ def test_refusal_names_the_layer_and_what_would_do():
 
 
 def test_refusals_of_the_reference_cable(reference):
-    with pytest.raises(GeometryError, match=r"earth would change by \+1\.500 deg .*allow a period of 78.* mm, or a tolerance of 1\.5"):
+    with pytest.raises(
+        GeometryError, match=r"earth would change by \+1\.500 deg .*allow a period of 78.* mm, or a tolerance of 1\.5"
+    ):
         cell_of(reference, longest=0.05)
-    with pytest.raises(GeometryError, match=r"at a height of 300 mm .*cores would change by -1\.969 deg .*take a height of 234"):
+    with pytest.raises(
+        GeometryError, match=r"at a height of 300 mm .*cores would change by -1\.969 deg .*take a height of 234"
+    ):
         common_period(THREE_CORE_CABLE, height=0.3)
 
 

@@ -31,7 +31,10 @@ def closest(first, second):
     i = int(np.argmin(distance[inner])) + len(distance) // 6
     start = np.array([first.z[i], second.z[nearest[i]]])
     found = minimize(
-        lambda z: 1e6 * ((a(z[0]) - b(z[1])) ** 2).sum(), start, method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-14}
+        lambda z: 1e6 * ((a(z[0]) - b(z[1])) ** 2).sum(),
+        start,
+        method="Nelder-Mead",
+        options={"xatol": 1e-9, "fatol": 1e-14},
     )
     return float(np.sqrt(1e-6 * found.fun))
 
@@ -65,7 +68,9 @@ def test_neighbours_that_just_clear_overlap_on_the_core_and_the_corrected_lay_re
     bent = bent_lay(CORE, POWER)
     assert bent.straight_clearance == pytest.approx(0.0, abs=1e-9)
     chord = layer_gap(6, POWER.diameter, POWER.radius, None)
-    assert bent.bent_clearance == pytest.approx(-2 * CORE.curvature * POWER.radius * np.cos(np.pi / 6) * chord, rel=0.03)
+    assert bent.bent_clearance == pytest.approx(
+        -2 * CORE.curvature * POWER.radius * np.cos(np.pi / 6) * chord, rel=0.03
+    )
     assert bent.corrected_clearance == pytest.approx(bent.straight_clearance, abs=1e-11)
     assert bent.corrected_lay == pytest.approx(129.6e-3, abs=0.1e-3)
     assert bent.centre_clearance == pytest.approx(0.0, abs=1e-9)
@@ -129,9 +134,7 @@ def test_local_lay_angle(strand):
 
 
 @FEW
-@given(
-    radius=st.floats(0.0, 30e-3), pitch=st.floats(0.1, 0.6), lay=st.floats(0.05, 0.3), hand=HANDS, strand=HANDS
-)
+@given(radius=st.floats(0.0, 30e-3), pitch=st.floats(0.1, 0.6), lay=st.floats(0.05, 0.3), hand=HANDS, strand=HANDS)
 def test_turn_rate_is_seen_in_the_frame_of_the_core(radius, pitch, lay, hand, strand):
     """Angle of the strand from the outward direction, measured on the nested helix, grows by omega per height."""
     core, z = Helix(radius, pitch, hand), np.linspace(0, 0.1, 60)

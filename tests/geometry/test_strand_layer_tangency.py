@@ -145,7 +145,10 @@ def test_layers_of_the_steel_strand_are_filled_by_count():
     ("given", "words"),
     [
         ({"count": 7, "diameter": 1.0, "radius": 1.0}, "has room for 6"),
-        ({"count": 6, "diameter": 1.0, "radius": 1.1, "lay_angle": 0.7}, r"locking limit of 27\.\d+ deg .* or take 5 members"),
+        (
+            {"count": 6, "diameter": 1.0, "radius": 1.1, "lay_angle": 0.7},
+            r"locking limit of 27\.\d+ deg .* or take 5 members",
+        ),
         ({"count": 6, "diameter": 1.0, "lay": 6.0}, "fit on no radius .* lengthen the lay"),
         ({"count": 6, "diameter": 1.0, "radius": 1.4, "radius_below": 1.0}, "reach 100 mm into the layer below"),
         ({"count": 6, "diameter": 1.0, "lay": 20.0, "lay_angle": 0.2}, "not by both"),
