@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,9 +70,9 @@ def write_mesh(
     return path
 
 
-def _vtu_data(blocks: Blocks, names: list[str], regions: int) -> dict[str, list[NDArray]]:
+def _vtu_data(blocks: Blocks, names: list[str], regions: int) -> dict[str, Any]:
     group_of = [group for *_, group in blocks]
-    data: dict[str, list[NDArray]] = {"region": [np.where(g < regions, g, -1).astype(np.int32) for g in group_of]}
+    data: dict[str, Any] = {"region": [np.where(g < regions, g, -1).astype(np.int32) for g in group_of]}
     if len(names) > regions:
         data["interface"] = [np.where(g < regions, -1, g - regions).astype(np.int32) for g in group_of]
     return data | {name: [(g == k).astype(np.uint8) for g in group_of] for k, name in enumerate(names)}

@@ -5,13 +5,12 @@ from __future__ import annotations
 import logging
 import sys
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geometry.cable import Cable
 from geometry.cell_mesh import SliceMesh, SweptCell
-from geometry.common_period import CommonPeriod, MatchedLay
 from geometry.doubled_nodes import DoubledMesh
 from geometry.errors import MeshError
 from geometry.helical_slice import SWEPT, helical_slice
@@ -19,6 +18,9 @@ from geometry.interface import Interface, interfaces
 from geometry.mesh_memory import check_element_count
 from geometry.mesh_quality import quality_histogram, region_sizes, scaled_jacobian, share_below
 from geometry.section_mesh import DEFAULT_SIZE, cross_section_mesh
+
+if TYPE_CHECKING:
+    from geometry.common_period import CommonPeriod
 
 logger = logging.getLogger(__name__)
 STEEPEST_LAYER = np.radians(5.0)
@@ -132,7 +134,8 @@ def _areas(found: list[Interface]) -> dict[str, float]:
     return areas
 
 
-def _lay(layer: MatchedLay) -> dict[str, Any]:
+def _lay(layer: Any) -> dict[str, Any]:
+    """A matched lay of the period."""
     nominal = layer.nominal
     return {
         "name": layer.name,

@@ -15,7 +15,7 @@ from geometry import (
     slice_of_size,
     slice_record,
 )
-from geometry.common_period import CommonPeriod, LayeredLay, MatchedLay
+from geometry.common_period import cell_of
 from geometry.doubled_nodes import double_nodes
 from geometry.interface import interfaces, select_interfaces
 
@@ -135,12 +135,15 @@ def test_the_record_tells_quality_and_interfaces(cable):
 
 
 def test_the_record_lists_the_lays_of_a_common_period(cable):
-    nominal = LayeredLay("strands", 2e-3, 0.127, "S", 6)
-    period = CommonPeriod(0.125, 26.9, (MatchedLay(nominal, -2, 0.128, "S", -1e-3),))
-    record = slice_record(cable, slice_of_size(cable, 1000), 0.0, period)
-    (lay,) = record["lays"]
-    assert (lay["name"], lay["fold"], lay["turns"], lay["nominal_lay"], lay["lay"]) == ("strands", 6, -2, 0.127, 0.128)
-    assert lay["nominal_lay_angle"] == pytest.approx(np.arctan(2 * np.pi * 2e-3 / 0.127))
+    period = cell_of(cable)
+    lays = slice_record(cable, slice_of_size(cable, 1000), 0.0, period)["lays"]
+    assert [lay["name"] for lay in lays] == [layer.name for layer in period.layers] != []
+    for lay, layer in zip(lays, period.layers):
+        assert (lay["lay"], lay["nominal_lay"], lay["turns"]) == (layer.lay, layer.nominal.lay, layer.turns)
+        assert (
+            lay["change"] == pytest.approx(lay["lay_angle"] - lay["nominal_lay_angle"], abs=1e-9) or lay["lay"] is None
+        )
+    json.dumps(lays, allow_nan=False)
 
 
 def test_layers_turn_by_five_degrees_at_most(cable):
