@@ -57,7 +57,7 @@ def write_mesh(
     if FORMATS[path.suffix.lower()] == "vtu":
         data, groups = _vtu_data(blocks, names, len(mesh.regions)), {}
     else:
-        tags = [(group + 1).astype(np.int32) for *_, group in blocks]
+        tags: list[Any] = [(group + 1).astype(np.int32) for *_, group in blocks]
         data = {"gmsh:physical": tags, "gmsh:geometrical": tags}
         dims = [dim] * len(mesh.regions) + [2] * len(sides)
         groups = {name: np.array([k + 1, d], dtype=np.int32) for k, (name, d) in enumerate(zip(names, dims))}
