@@ -8,6 +8,7 @@ from geometry.cable_file import BuiltinCable, builtin_cables, cable_files, read_
 from geometry.cable_table import Row, describe, marked_rows
 from geometry.cell_mesh import CellBlock, CrossSectionMesh, Region, SliceMesh, SweptCell
 from geometry.clearance import Clearance, Member, clearances, helix_distance
+from geometry.common_period import cell_of, common_period
 from geometry.conductor_section import ConductorSection, conductor_section
 from geometry.cutaway_picture import draw_cutaway
 from geometry.data_sheet import DataSheetRow, data_sheet_rows
@@ -16,10 +17,12 @@ from geometry.errors import ConvergenceError, GeometryError, InputError, MeshErr
 from geometry.helical_slice import helical_slice
 from geometry.helix import Helix, lay_angle
 from geometry.interface import Interface, interfaces, select_interfaces
+from geometry.matched_lay import CommonPeriod, LayeredLay, MatchedLay
 from geometry.material import Material
 from geometry.mesh_file import write_mesh
 from geometry.mesh_picture import draw_mesh, draw_swept_cell
 from geometry.mesh_quality import element_sizes, quality_histogram, region_sizes, scaled_jacobian, share_below
+from geometry.nested_cell import nested_cell
 from geometry.nested_helix import CentreLine, nested_helix
 from geometry.quality_picture import draw_quality
 from geometry.section_mesh import cross_section_mesh
@@ -35,6 +38,7 @@ __all__ = [
     "CellBlock",
     "CentreLine",
     "Clearance",
+    "CommonPeriod",
     "Conductor",
     "ConductorSection",
     "ConvergenceError",
@@ -46,7 +50,9 @@ __all__ = [
     "Helix",
     "InputError",
     "Interface",
+    "LayeredLay",
     "MarkedNumber",
+    "MatchedLay",
     "Material",
     "Member",
     "MeshError",
@@ -62,7 +68,9 @@ __all__ = [
     "WireTrace",
     "builtin_cables",
     "cable_files",
+    "cell_of",
     "clearances",
+    "common_period",
     "conductor_section",
     "cross_section_mesh",
     "data_sheet_rows",
@@ -79,6 +87,7 @@ __all__ = [
     "interfaces",
     "lay_angle",
     "marked_rows",
+    "nested_cell",
     "nested_helix",
     "quality_histogram",
     "read_cable",
