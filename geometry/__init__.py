@@ -3,6 +3,7 @@
 Names that need gmsh, meshio, matplotlib or pyvista load them only when they are used.
 """
 
+from geometry.bent_lay import BentLay, bent_lay, relative_turn_rate
 from geometry.cable import Cable, MarkedNumber, Part, RotaryInertia
 from geometry.cable_file import BuiltinCable, builtin_cables, cable_files, read_cable
 from geometry.cable_table import Row, describe, marked_rows
@@ -29,10 +30,12 @@ from geometry.section_mesh import cross_section_mesh
 from geometry.section_picture import draw_cross_section
 from geometry.sized_slice import slice_of_size, slice_record
 from geometry.strand import Conductor, Strand
+from geometry.strand_layer import StrandLayer, solve_layer
 from geometry.swept_solids import Solid, write_solids
 from geometry.wire_trace import WireTrace
 
 __all__ = [
+    "BentLay",
     "BuiltinCable",
     "Cable",
     "CellBlock",
@@ -64,8 +67,10 @@ __all__ = [
     "Solid",
     "SpecError",
     "Strand",
+    "StrandLayer",
     "SweptCell",
     "WireTrace",
+    "bent_lay",
     "builtin_cables",
     "cable_files",
     "cell_of",
@@ -92,11 +97,13 @@ __all__ = [
     "quality_histogram",
     "read_cable",
     "region_sizes",
+    "relative_turn_rate",
     "scaled_jacobian",
     "select_interfaces",
     "share_below",
     "slice_of_size",
     "slice_record",
+    "solve_layer",
     "write_mesh",
     "write_solids",
 ]
