@@ -99,12 +99,12 @@ class TurningConductor:
         MeshError
             If the section does not come to lie on itself.
         """
-        from scipy.spatial import cKDTree  # slow to load, needed here only
+        from scipy.spatial import KDTree  # slow to load, needed here only
 
         angle = self.turn_rate * height
         x, y = self.section.points.T
         image = np.column_stack([np.cos(angle) * x - np.sin(angle) * y, np.sin(angle) * x + np.cos(angle) * y])
-        distance, found = cKDTree(self.section.points).query(image)
+        distance, found = KDTree(self.section.points).query(image)
         if distance.max() > 1e-9 * self.part.outer_radius or len(np.unique(found)) < len(found):
             raise MeshError(
                 f"{self.part.name} turned by {np.degrees(angle):.4g} degrees does not lie on itself: {1e3 * height:.6g} mm is not a period."

@@ -21,8 +21,9 @@ FACES = {
 KIND = {"hexahedra": "hexahedron", "pyramids": "pyramid", "tetrahedra": "tetra"}
 
 
-def ring_mesh(steps, layers, N=12, inner=1.0, outer=1.5, height=2.0):
-    """Points of all planes and of the middles, and the ring."""
+def ring_mesh(steps, layers, N=12, inner=1.0, outer=1.5):
+    """Points of all planes and of the middles, and the ring; cells about as high as they are thick."""
+    height = 0.4 * layers
     k = np.arange(layers + 1)[:, None]
     turn = 2 * np.pi * (np.arange(N) + steps * k / layers) / N
     still = np.broadcast_to(2 * np.pi * np.arange(N) / N, turn.shape)
@@ -84,7 +85,7 @@ def test_no_cell_is_inside_out_and_none_is_lost(steps, m):
         if len(cells):
             assert block_quality(points, cells, kind).min() > 0.1
             total += block_sizes(points, cells, kind).sum()
-    N, height = 12, 2.0
+    N, height = 12, 0.4 * layers
     turn = 2 * np.pi * steps / N / layers
 
     def between(radius, angle):
@@ -105,9 +106,7 @@ def test_opposite_hands_are_mirror_images(steps, extra):
         p, q = getattr(left, name), getattr(right, name)
         assert len(p) == len(q)
         if len(p):
-            np.testing.assert_allclose(
-                np.sort(block_sizes(a, p, kind)), np.sort(block_sizes(b, q, kind)), rtol=1e-9
-            )
+            np.testing.assert_allclose(np.sort(block_sizes(a, p, kind)), np.sort(block_sizes(b, q, kind)), rtol=1e-9)
     key = lambda x: x[np.lexsort(np.round(x, 9).T)]  # noqa: E731
     np.testing.assert_allclose(key(a * [1, -1, 1]), key(b), atol=1e-9)
 
