@@ -80,8 +80,9 @@ def picture(name: str, draw: Callable[[Path], Path]) -> None:
     with TemporaryDirectory() as folder:
         image = Image.open(draw(Path(folder) / name)).convert("RGB")
     target = DOCS / "pictures" / name
-    for colours in (128, 64, 32):
-        image.quantize(colours, method=Image.Quantize.MEDIANCUT).save(target, optimize=True)
+    for colours in (256, 128, 64):
+        palette = image.quantize(colours, method=Image.Quantize.MAXCOVERAGE)
+        image.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG).save(target, optimize=True)
         if target.stat().st_size <= LARGEST:
             return
     raise SystemExit(f"{target} has {target.stat().st_size} bytes, more than {LARGEST}.")

@@ -28,6 +28,7 @@ from geometry.nested_helix import CentreLine, nested_helix
 from geometry.quality_picture import draw_quality
 from geometry.section_mesh import cross_section_mesh
 from geometry.section_picture import draw_cross_section
+from geometry.self_intersection import Overlap, check_self_intersection, self_intersections
 from geometry.sized_slice import slice_of_size, slice_record
 from geometry.strand import Conductor, Strand
 from geometry.strand_layer import StrandLayer, solve_layer
@@ -59,6 +60,7 @@ __all__ = [
     "Material",
     "Member",
     "MeshError",
+    "Overlap",
     "Part",
     "Region",
     "RotaryInertia",
@@ -74,6 +76,7 @@ __all__ = [
     "builtin_cables",
     "cable_files",
     "cell_of",
+    "check_self_intersection",
     "clearances",
     "common_period",
     "conductor_section",
@@ -101,6 +104,7 @@ __all__ = [
     "scaled_jacobian",
     "select_interfaces",
     "share_below",
+    "self_intersections",
     "slice_of_size",
     "slice_record",
     "solve_layer",

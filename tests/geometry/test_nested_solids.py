@@ -18,7 +18,7 @@ def cable():
 @pytest.fixture(scope="module")
 def power(cable):
     part = cable.part("power core 2 conductor")
-    return strands(part, cable.conductor_of(part))
+    return strands(part, cable.conductors["power"])
 
 
 def test_length_of_a_double_helix_in_closed_form(power):
@@ -47,7 +47,11 @@ def test_strands_stand_at_equal_angles_from_the_outward_direction(power):
         )
 
 
-def test_strands_do_not_depend_on_where_the_piece_begins(power):
+def test_strands_and_wires_do_not_depend_on_where_the_piece_begins(cable, power):
+    wire = wires(power[3], cable.conductors["power"].strand)[20]
+    whole = wire.centre_line(np.linspace(-0.02, 0.06, 9))
+    piece = wire.centre_line(np.linspace(0.03, 0.06, 4))
+    np.testing.assert_allclose(piece.points, whole.points[5:], atol=1e-9)
     whole = power[3].centre_line(np.linspace(-0.02, 0.06, 9))
     piece = power[3].centre_line(np.linspace(0.03, 0.06, 4))
     np.testing.assert_allclose(piece.points, whole.points[5:], atol=1e-12)
@@ -90,6 +94,11 @@ def test_solids_in_the_file_clear_each_other(cable, tmp_path):
     with gmsh_session("cut") as gmsh:
         found = gmsh.model.occ.importShapes(str(tmp_path / "strands.brep"))
         gmsh.model.occ.synchronize()
+        for tag, member in zip(
+            found, laid_members(cable, "strand", ("conductor",)), strict=True
+        ):  # copies are in place
+            middle = 1e3 * member.centre_line(np.linspace(0, 0.02, 41)).points.mean(0)
+            np.testing.assert_allclose(gmsh.model.occ.getCenterOfMass(*tag), middle, atol=0.05, err_msg=member.name)
         second, third = found[4], found[5]  # three of the earth, then the middle one
         common = [tag for dim, tag in gmsh.model.occ.intersect([second], [third])[0] if dim == 3]
         volume = sum(gmsh.model.occ.getMass(3, tag) for tag in common)

@@ -170,12 +170,14 @@ def test_surfaces_follow_the_helices():
         rho, rate = wires[0].outer_radius, wires[0].twist_rate
         matching = 0
         for surface in (s for s in cutaway_surfaces(sea, 0.5) if s.normals is not None):
+            assert surface.normals is not None
             centre = surface.points - rho * surface.normals
             if not np.allclose(np.hypot(*centre[:, :2].T), wires[0].centre_radius, rtol=1e-9):
                 continue
             turned = np.arctan2(centre[:, 1], centre[:, 0]) - rate * centre[:, 2] - wires[0].phase
             steps = turned / (2 * np.pi / len(wires))
             np.testing.assert_allclose(steps, np.round(steps), atol=1e-9)
+            assert set(np.round(steps).astype(int) % len(wires)) == set(range(len(wires)))
             matching += 1
         assert matching == 1
 

@@ -7,7 +7,7 @@ import pytest
 
 from geometry import GeometryError, Helix, builtin_cables, nested_helix, read_cable, write_solids
 from geometry.clearance import helix_distance
-from geometry.laid_member import laid_members, stranded, strands
+from geometry.laid_member import laid_members, strands
 from geometry.self_intersection import centre_distance, check_self_intersection, self_intersections
 
 
@@ -55,7 +55,7 @@ def test_six_strands_round_one_cut_their_neighbours(cable):
     """3.016 mm strands at lay 127 mm: 0.0250 mm on a straight conductor, about as much on the laid core; only a note."""
     part = cable.part("power core 1 conductor")
     straight = with_parts(cable, {part.name: {"centre_radius": 0.0, "twist_rate": 0.0}})
-    members = strands(straight.part(part.name), stranded(cable, part))
+    members = strands(straight.part(part.name), cable.conductors["power"])
     rope = members[-1].levels[-1]
     exact = 2 * members[-1].outer_radius - helix_distance(rope.radius, rope.radius, np.pi / 3, rope.pitch)
     assert exact == pytest.approx(0.0250e-3, abs=1e-7)
@@ -69,7 +69,7 @@ def test_six_strands_round_one_cut_their_neighbours(cable):
 def test_strands_round_the_middle_one_touch_it(cable):
     """The middle strand lies r from all others along any lay: the gap is zero on the bent conductor too."""
     part = cable.part("power core 2 conductor")
-    members = strands(part, stranded(cable, part))
+    members = strands(part, cable.conductors["power"])
     lines = [m.centre_line(members[-1].stations(0, 0.1)) for m in members]
     for line in lines[1:]:
         assert centre_distance(lines[0], line) == pytest.approx(2 * members[0].outer_radius, rel=1e-9)
