@@ -73,7 +73,7 @@ def assembled(table: CableTable) -> Cable:
     parts, layers = _over(table, materials, laid.parts, laid.laid_up_radius, _rate(lay, hand))
     check_names(parts)
     pitch, laid_up = laid.pitch_circle_radius, laid.laid_up_radius
-    if not spec.cores and layers:  # a strand: the innermost wires are what is laid up
+    if layers and not any(part.centre_radius > 0 for part in laid.parts):  # the innermost wires are what is laid up
         pitch, laid_up = layers[0].radius, layers[0].outer_radius
         lay, hand = layers[0].lay, "S" if layers[0].twist_rate < 0 else "Z"
     return Cable(

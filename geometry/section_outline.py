@@ -138,6 +138,13 @@ def _zone_curves(
             f"{cable.name}: {between[0]} lies between two layers of laid parts; a section with one such layer is meshed so far: "
             "try a cable file with one of the layers."
         )
+    filler = _filler(cable)
+    apart = [] if filler is None else [p.name for p in laid.values() if p.centre_radius > filler.outer_radius]
+    if filler is not None and apart:
+        raise MeshError(
+            f"{cable.name}: {apart[0]} lies outside the {filler.name}; a section with one layer of laid parts is meshed so far: "
+            "leave the filler out, or try a cable file with one of the layers."
+        )
     cores = [index[_key(part.outer_trace)] for part in laid.values()]
     inside = [part.outer_radius for part in coaxial if part.outer_radius <= low]
     outside = [part.inner_radius for part in coaxial if part.inner_radius >= high]
