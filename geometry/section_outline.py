@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from geometry.cable import Cable, Part
 from geometry.contact_closure import Contact, Neck, find_closures
 from geometry.errors import MeshError
+from geometry.laid_zone import curve_key, host_area, the_filler, zone_curves
 from geometry.wire_trace import WireTrace
 
 QUARTERS = np.linspace(0, 2 * np.pi, 5)[:-1]
@@ -74,24 +75,24 @@ def section_outline(
     index: dict[tuple[float, float, float], int] = {}
     for part in rings:
         for trace in (part.inner_trace, part.outer_trace):
-            if trace is not None and _key(trace) not in index:
-                index[_key(trace)] = len(curves)
+            if trace is not None and curve_key(trace) not in index:
+                index[curve_key(trace)] = len(curves)
                 curves.append(trace)
     outline = SectionOutline(curves)
-    filler = _filler(cable)
+    filler = the_filler(cable)
     if (
         filler is not None
         and (rim := WireTrace(0.0, 0.0, filler.outer_radius, cable.twist_rate))
-        and _key(rim) not in index
+        and curve_key(rim) not in index
     ):
-        index[_key(rim)] = len(curves)  # nothing lies round the filler
+        index[curve_key(rim)] = len(curves)  # nothing lies round the filler
         curves.append(rim)
-    zone = _zone_curves(cable, index)
+    zone = zone_curves(cable, index)
     contacts: list[Contact] = []
     if zone:
         cores, centre, outer = zone
         hosts = cores + [number for number in (centre, outer) if number is not None]
-        areas = {number: _host_area(cable, curves[number], number == outer) for number in hosts}
+        areas = {number: host_area(cable, curves[number], number == outer) for number in hosts}
         contacts, outline.necks = find_closures(curves, cores, centre, outer, areas, neck_below, filler is not None)
     pieces = _cut(outline, contacts, cuts or {})
     bridges = _bridges(outline, contacts, pieces)
@@ -99,72 +100,6 @@ def section_outline(
     if zone and filler is not None:
         outline.faces[filler.name] = _filler_faces(outline, zone, contacts, pieces, bridges)
     return outline
-
-
-def _key(trace: WireTrace) -> tuple[float, float, float]:
-    return (
-        round(trace.centre_radius, 12),
-        round(trace.phase if trace.centre_radius > 0 else 0.0, 9),
-        round(trace.radius, 12),
-    )
-
-
-def _filler(cable: Cable) -> Part | None:
-    """The part between the laid parts, None if the gaps are empty."""
-    fillers = [part for part in cable.parts if part.kind == "interstices"]
-    if len(fillers) > 1:
-        raise MeshError(
-            f"{cable.name}: {fillers[0].name} and {fillers[1].name} cannot be meshed in one section, which has one filler: "
-            "leave one of them out."
-        )
-    return fillers[0] if fillers else None
-
-
-def _zone_curves(
-    cable: Cable, index: dict[tuple[float, float, float], int]
-) -> tuple[list[int], int | None, int | None] | None:
-    """Curves that bound the gaps: laid parts, centre (or None), circle round them (or None); None if the cable is coaxial."""
-    laid = {
-        part.member: part for part in cable.parts if part.centre_radius > 0
-    }  # the last of a member is its outermost
-    if not laid:
-        return None
-    low = min(part.centre_radius for part in laid.values())
-    high = max(part.centre_radius for part in laid.values())
-    coaxial = [part for part in cable.parts if part.centre_radius == 0 and part.kind != "interstices"]
-    between = [part.name for part in coaxial if low < part.outer_radius < high]
-    if between:
-        raise MeshError(
-            f"{cable.name}: {between[0]} lies between two layers of laid parts; a section with one such layer is meshed so far: "
-            "try a cable file with one of the layers."
-        )
-    filler = _filler(cable)
-    apart = [] if filler is None else [p.name for p in laid.values() if p.centre_radius > filler.outer_radius]
-    if filler is not None and apart:
-        raise MeshError(
-            f"{cable.name}: {apart[0]} lies outside the {filler.name}; a section with one layer of laid parts is meshed so far: "
-            "leave the filler out, or try a cable file with one of the layers."
-        )
-    cores = [index[_key(part.outer_trace)] for part in laid.values()]
-    inside = [part.outer_radius for part in coaxial if part.outer_radius <= low]
-    outside = [part.inner_radius for part in coaxial if part.inner_radius >= high]
-    outside += [part.outer_radius for part in cable.parts if part.kind == "interstices"]
-    circle = [
-        index[(0.0, 0.0, round(radius, 12))]
-        for radius in (max(inside, default=0.0), min(outside, default=0.0))
-        if radius
-    ]
-    centre = circle[0] if inside else None
-    return cores, centre, circle[-1] if outside else None
-
-
-def _host_area(cable: Cable, curve: WireTrace, outer: bool) -> float:
-    """Area of the layer that gets the closures on this curve: outside the `outer` circle, inside any other curve."""
-    for part in cable.parts:
-        trace = part.inner_trace if outer else part.outer_trace
-        if part.kind != "interstices" and trace is not None and _key(trace) == _key(curve):
-            return part.area
-    return cable.area  # nothing lies round the filler: a closure only ends it bluntly
 
 
 def _cut(
@@ -283,10 +218,10 @@ def _ring_faces(
         return _loops(outline, signed + (_hosted(number, contacts, pieces, bridges) if host else []))
 
     for part in rings:
-        outer = index[_key(part.outer_trace)]
+        outer = index[curve_key(part.outer_trace)]
         loops = boundary(outer, 1, outer != around)
         if part.inner_trace is not None:
-            inner = index[_key(part.inner_trace)]
+            inner = index[curve_key(part.inner_trace)]
             loops += boundary(inner, -1, inner == around)
         outline.faces[part.name] = [loops]
 

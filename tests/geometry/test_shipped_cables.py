@@ -36,6 +36,7 @@ def test_sister_with_95_mm2():
     cable = read_cable("mcpt-1.9-3.3-3x95")
     power = cable.conductors["power"]
     assert 1e6 * power.metal_area == pytest.approx(96.7, abs=0.05)
+    assert power.strand is not None
     assert power.diameter == pytest.approx(5 * power.strand.diameter)
     assert 1e6 * cable.conductors["earth"].metal_area == pytest.approx(50.9, abs=0.05)
     assert 65.1 < 1e3 * cable.outer_diameter < 71.6
@@ -50,6 +51,7 @@ def test_sea_cable_has_the_published_radii_and_angles():
     assert radii["inner sheath"] == pytest.approx(37.467)
     assert radii["bedding"] == pytest.approx(42.067) and radii["sheath"] == pytest.approx(50.567)
     layers = wire_layers(cable)
+    assert cable.lay is not None
     assert [len(wires) for wires in layers.values()] == [55, 63]
     angles = [np.degrees(wires[0].lay_angle) for wires in layers.values()]
     assert [np.degrees(cable.lay_angle), *angles] == pytest.approx([8.978, 20.091, 19.624], abs=6e-4)
