@@ -219,7 +219,7 @@ class Cable:
         told = [f"{name} {lay_words(rate)}" for name, rate in layers.items()]
         raise MeshError(
             f"{self.name} has layers of several lays ({', '.join(told)}), so that no one section, turned, is the whole "
-            "cable: take a cell as long as the common period of these lays, or a cable file with one of the layers at a time."
+            "cable, and no mesh of hexahedra follows layers that cross in points: describe one layer at a time in a file of its own."
         )
 
     def conductor_of(self, part: Part) -> Conductor | None:
