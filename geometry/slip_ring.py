@@ -81,7 +81,7 @@ def pairing(steps: int, layers: int) -> NDArray[np.int64]:
             f"{layers} layers are too few for a conductor that slips by {abs(steps)} nodes: take at least {abs(steps) + 1}."
         )
     middle = 2 * np.arange(layers) + 1
-    return np.sign(steps) * ((2 * abs(steps) * middle + 2 * layers - 1) // (4 * layers))
+    return (1 if steps >= 0 else -1) * ((2 * abs(steps) * middle + 2 * layers - 1) // (4 * layers))
 
 
 @dataclass(frozen=True)

@@ -105,11 +105,11 @@ class TurningConductor:
         x, y = self.section.points.T
         image = np.column_stack([np.cos(angle) * x - np.sin(angle) * y, np.sin(angle) * x + np.cos(angle) * y])
         distance, found = KDTree(self.section.points).query(image)
-        if distance.max() > 1e-9 * self.part.outer_radius or len(np.unique(found)) < len(found):
+        if distance.max() > 1e-9 * self.part.outer_radius or len(np.unique(found)) < len(x):
             raise MeshError(
                 f"{self.part.name} turned by {np.degrees(angle):.4g} degrees does not lie on itself: {1e3 * height:.6g} mm is not a period."
             )
-        return found.astype(np.int64)
+        return np.asarray(found, dtype=np.int64)
 
 
 def own_turn_rate(part: Part, turn_rate: float) -> float:
