@@ -150,7 +150,9 @@ def _coloured(cell: SweptCell | SliceMesh, faces: NDArray[np.int64], region: NDA
     for colour in np.unique(colours[region]):
         mine = faces[colours[region] == colour]
         nodes, numbered = np.unique(mine, return_inverse=True)
-        yield Surface(cell.points[nodes], numbered.reshape(mine.shape), str(colour), smooth=False, gloss=(0.0, 1), edges=True)
+        yield Surface(
+            cell.points[nodes], numbered.reshape(mine.shape), str(colour), smooth=False, gloss=(0.0, 1), edges=True
+        )
 
 
 def _cell_labels(cell: SweptCell | SliceMesh, ends: dict[str, float], view: View) -> list[Label]:
