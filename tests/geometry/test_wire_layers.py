@@ -128,7 +128,8 @@ def test_several_lays_are_refused_where_one_section_would_have_to_serve():
     cable = read_cable("sea-three-core")
     assert len(cable.lays) == 3 and not cable.single_lay
     with pytest.raises(
-        MeshError, match=r"the cores 702.6 mm Z, inner armour 677.95 mm S, outer armour 776.56 mm Z.*one layer at a time"
+        MeshError,
+        match=r"the cores 702.6 mm Z, inner armour 677.95 mm S, outer armour 776.56 mm Z.*one layer at a time",
     ):
         cable.check_single_lay()
     assert read_cable("mcpt-1.9-3.3-3x35").single_lay
