@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 
-.PHONY: help install demo test lint types imports benchmarks clean
+.PHONY: help install demo test lint types imports benchmarks gallery clean
 
 help:
 	@echo "make demo        install and run the main job on the real cable; the report is out/demo/report.html"
@@ -12,6 +12,7 @@ help:
 	@echo "make install     only make .venv with helicable in .venv/bin"
 	@echo "make lint types imports   the checks that run beside the tests"
 	@echo "make benchmarks  time and memory of the cell and of the rod"
+	@echo "make gallery     draw docs/gallery.md and its pictures again"
 
 $(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
@@ -51,6 +52,9 @@ imports: $(VENV)/.test-tools
 
 benchmarks: install
 	@$(BIN)/python -m benchmarks
+
+gallery: install
+	@$(BIN)/python -m benchmarks.gallery
 
 clean:
 	rm -rf $(VENV) out build dist *.egg-info

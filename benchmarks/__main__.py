@@ -4,5 +4,5 @@ from __future__ import annotations
 
 import importlib
 
-for name in ("cell", "rod_towing"):
+for name in ("mesh", "cell", "rod_towing"):
     importlib.import_module(f"benchmarks.{name}").main()

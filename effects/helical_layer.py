@@ -14,6 +14,7 @@ import numpy as np
 from geometry import Cable, Part
 from geometry.helix import lay_angle
 from geometry.strand import Conductor, layer_radii
+from geometry.wire_layer import wire_layers
 from homogenize.stiffness_bounds import conductor_of, spring_bending, wire_modulus
 
 
@@ -67,7 +68,7 @@ class HelicalLayer:
 
 
 def layers_of(cable: Cable) -> tuple[HelicalLayer, ...]:
-    """Cores round the centre, strands in conductors and wires in strands, as far as the cable file knows them."""
+    """Cores round the centre, strands in conductors, wires in strands and layers of wires, as far as the cable file knows them."""
     cores: dict[str, list[Part]] = {}
     for part in cable.parts:
         if part.kind == "conductor":
@@ -85,7 +86,18 @@ def layers_of(cable: Cable) -> tuple[HelicalLayer, ...]:
                 )
             )  # fmt: skip
         layers += _inside(conductor, first.lay_angle, count)
-    return tuple(layers)
+    return (*layers, *_wires(cable))
+
+
+def _wires(cable: Cable) -> list[HelicalLayer]:
+    """Laid layers of armour or of single wires; they press on the cores as outer layers do."""
+    found = []
+    for name, wires in wire_layers(cable).items():
+        first = wires[0]
+        if first.lay_angle > 0:
+            EA = first.material.E * np.pi * first.outer_radius**2
+            found.append(HelicalLayer(name, len(wires), first.centre_radius, first.lay_angle, float(EA), group="cores"))
+    return found
 
 
 def _core(conductor: Part, cable: Cable) -> list[Part]:

@@ -37,19 +37,20 @@ def area_true_points(
 
     Examples
     --------
-    A circle of radius 1 as a polygon of 12 edges:
+    A circle of radius 1 as a polygon of 12 edges; the inscribed one has 0.955 of the area:
 
     >>> circle = WireTrace(0.0, 0.0, 1.0, 0.0)
     >>> x, y = area_true_points(circle, circle.point(2 * np.pi * np.arange(12) / 12), [(k, (k + 1) % 12) for k in range(12)]).T
-    >>> round(0.5 * sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / np.pi, 3)
-    0.999
+    >>> round(float(0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / np.pi), 3)
+    0.998
     """
     edges = np.asarray(edges, dtype=np.int64).reshape(-1, 2)
     phi = curve.nearest(points)
     on = curve.point(phi)
     lengths = np.linalg.norm(on[edges[:, 1]] - on[edges[:, 0]], axis=1)
-    total = np.bincount(edges.ravel(), weights=np.repeat(lengths, 2), minlength=len(on))
-    cubes = np.bincount(edges.ravel(), weights=np.repeat(lengths**3, 2), minlength=len(on))
+    total, cubes = np.zeros(len(on)), np.zeros(len(on))
+    np.add.at(total, edges.ravel(), np.repeat(lengths, 2))
+    np.add.at(cubes, edges.ravel(), np.repeat(lengths**3, 2))
     normal, curvature = _normal_and_curvature(curve, phi)
     move = curvature / 12 * np.divide(cubes, total, out=np.zeros_like(total), where=total > 0)
     return on + np.clip(move, -most, most)[:, None] * normal

@@ -10,12 +10,13 @@ Every part is a ring (inner to outer radius, in the plane normal to its own cent
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.errors import MeshError
 from geometry.helix import HANDS, lay_angle
 from geometry.material import Material
 from geometry.strand import Conductor
@@ -74,6 +75,7 @@ class Part:
     twist_rate : 2 pi / lay [rad/m], signed
     moments : (A, Sx, Sy, Sxx, Syy, Sxy) in the plane z = 0 [m^2 .. m^4]
     conductor : name in ``Cable.conductors`` of its make-up; None for everything else
+    layer : name of the layer of wires that it is one of; None for everything else
     """
 
     name: str
@@ -87,6 +89,7 @@ class Part:
     twist_rate: float
     moments: tuple[float, ...]
     conductor: str | None = None
+    layer: str | None = None
 
     @property
     def area(self) -> float:
@@ -123,13 +126,17 @@ class Part:
 
 @dataclass(frozen=True)
 class Cable:
-    """A cable with one layer of cores about an optional centre.
+    """A cable: an optional centre, cores laid about it, then rings and layers of wires.
 
     Attributes
     ----------
     parts : from the centre outwards, cores in their order round the axis (the first at the angle `phase` from x)
     conductors : make-up of the conductors by name
-    lay : cabling lay [m], None for a straight cable; hand "Z" or "S"
+    lay : cabling lay [m], None for a straight cable; hand "Z" or "S"; without cores those of the innermost laid wires
+    pitch_circle_radius : of the first core, without cores of the innermost layer of wires [m]
+    laid_up_radius : outer radius of the laid-up cores, without cores of the centre [m]
+    data_sheet : what a data sheet says, by the name of the attribute: outer_diameter, mass_per_length
+    data_sheet_source : which sheet that is
     numbers : every number of the file with its mark
     """
 
@@ -144,6 +151,8 @@ class Cable:
     outer_radius: float
     numbers: tuple[MarkedNumber, ...]
     notes: tuple[str, ...] = ()
+    data_sheet: Mapping[str, MarkedNumber] = field(default_factory=dict)
+    data_sheet_source: str = ""
 
     @property
     def twist_rate(self) -> float:
@@ -152,7 +161,7 @@ class Cable:
 
     @property
     def outer_diameter(self) -> float:
-        """Diameter over the sheath [m]."""
+        """Diameter over all parts [m]."""
         return 2 * self.outer_radius
 
     @property
@@ -196,6 +205,23 @@ class Cable:
         """Whether all parts off the axis turn at one rate, so that one section, turned, is the whole cable."""
         return len(self.lays) <= 1
 
+    def check_single_lay(self) -> None:
+        """Refuse what serves one lay only.
+
+        Raises
+        ------
+        MeshError
+            If layers have different lays; names them, and what to try.
+        """
+        if self.single_lay:
+            return
+        layers = {p.layer or "the cores": p.twist_rate for p in self.parts if p.centre_radius > 0}
+        told = [f"{name} {lay_words(rate)}" for name, rate in layers.items()]
+        raise MeshError(
+            f"{self.name} has layers of several lays ({', '.join(told)}), so that no one section, turned, is the whole "
+            "cable, and no mesh of hexahedra follows layers that cross in points: describe one layer at a time in a file of its own."
+        )
+
     def conductor_of(self, part: Part) -> Conductor | None:
         """Make-up of the conductor that a part is; None for every other part."""
         return None if part.conductor is None else self.conductors[part.conductor]
@@ -203,6 +229,11 @@ class Cable:
     def part(self, name: str) -> Part:
         """The part of that name; KeyError if there is none."""
         return {part.name: part for part in self.parts}[name]
+
+
+def lay_words(rate: float) -> str:
+    """A twist rate [rad/m] as lay and hand, such as "234 mm Z", or "straight"."""
+    return f"{2e3 * np.pi / abs(rate):.5g} mm {'Z' if rate > 0 else 'S'}" if rate else "straight"
 
 
 def ring_moments(

@@ -84,6 +84,7 @@ def _mark(raw: Any, unit: str, example: str | None = None) -> tuple[Any, str, st
 Length = Annotated[MarkedNumber, _marked("m", 0, math.inf, True)]
 Stress = Annotated[MarkedNumber, _marked("Pa", 0, math.inf, True)]
 Density = Annotated[MarkedNumber, _marked("kg/m^3", 0, math.inf, True)]
+MassPerLength = Annotated[MarkedNumber, _marked("kg/m", 0, math.inf, True)]
 Angle = Annotated[MarkedNumber, _marked("rad", -7, 7, False)]
 Poisson = Annotated[MarkedNumber, _marked("1", -1, 0.5, True)]
 Fill = Annotated[MarkedNumber, _marked("1", 0, 1, False)]
@@ -150,11 +151,11 @@ ConductorTable = Annotated[
 
 
 class CoreTable(_Table):
-    """[cores.NAME]"""
+    """[cores.NAME]: a conductor, bare or with insulation, and a screen on the insulation."""
 
     conductor: Name
-    insulation_wall: Length
-    insulation_material: Name
+    insulation_wall: Length | None = None
+    insulation_material: Name | None = None
     screen_wall: Length | None = None
     screen_material: Name | None = None
 
@@ -191,6 +192,47 @@ class WallTable(_Table):
     material: Name
 
 
+class RingTable(_Table):
+    """[[layers]], a ring about the axis."""
+
+    kind: Literal["bedding", "tape", "wrap", "sheath"]
+    name: Name | None = None
+    wall: Length
+    material: Name
+
+
+class WiresTable(_Table):
+    """[[layers]], round wires laid side by side."""
+
+    kind: Literal["armour", "wires"]
+    name: Name | None = None
+    wires: Counts
+    wire_diameter: Length
+    material: Name
+    lay: Length | None = None
+    hand: Literal["Z", "S"] = "Z"
+    phase: Angle | None = None
+    radius: Length | None = None
+    filler: Name | None = None
+
+
+def _layer_kind(raw: Any) -> str:
+    return "laid" if isinstance(raw, dict) and raw.get("kind") in ("armour", "wires") else "ring"
+
+
+LayerTable = Annotated[
+    Annotated[RingTable, Tag("ring")] | Annotated[WiresTable, Tag("laid")], Discriminator(_layer_kind)
+]
+
+
+class DataSheetTable(_Table):
+    """[data-sheet]: what a sheet says; the range of a number is the tolerance of the sheet."""
+
+    outer_diameter: Length | None = None
+    mass_per_length: MassPerLength | None = None
+    source: Annotated[str, Field(min_length=1, max_length=300)]
+
+
 class CableTable(_Table):
     """The whole file."""
 
@@ -204,5 +246,7 @@ class CableTable(_Table):
     centre: CentreTable | None = None
     lay_up: LayUpTable = Field(alias="lay-up", default_factory=LayUpTable)
     interstices: IntersticesTable | None = None
+    layers: list[LayerTable] = Field(default_factory=list, max_length=40)
     wrap: WallTable | None = None
-    sheath: WallTable
+    sheath: WallTable | None = None
+    data_sheet: DataSheetTable | None = Field(alias="data-sheet", default=None)

@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geometry.cable import Cable, MarkedNumber
+from geometry.cable import Cable, MarkedNumber, lay_words
+from geometry.clearance import neighbour_gap
+from geometry.data_sheet import data_sheet_rows
+from geometry.wire_layer import lay_of, wire_layers
 
 UNITS = {
     "m": (1e3, "mm"),
@@ -13,6 +16,7 @@ UNITS = {
     "kg/m^3": (1.0, "kg/m^3"),
     "rad": (180 / math.pi, "deg"),
     "1": (1.0, ""),
+    "kg/m": (1.0, "kg/m"),
 }
 
 
@@ -31,7 +35,7 @@ class Row(NamedTuple):
 
 def describe(cable: Cable) -> list[Row]:
     """Everything derived from the cable file, in the order of a data sheet."""
-    return [*_whole(cable), *_lay(cable), *_conductors(cable), *_masses(cable)]
+    return [*_whole(cable), *_sheet(cable), *_lay(cable), *_wire_layers(cable), *_conductors(cable), *_masses(cable)]
 
 
 def marked_rows(cable: Cable) -> list[Row]:
@@ -42,7 +46,7 @@ def marked_rows(cable: Cable) -> list[Row]:
 def _whole(cable: Cable) -> list[Row]:
     J = cable.rotary_inertia
     return [
-        _computed("cable", "outer diameter", cable.outer_diameter, "m", "laid-up diameter + 2 (wrap + sheath)"),
+        _computed("cable", "outer diameter", cable.outer_diameter, "m", "over all parts"),
         _computed("cable", "section area", cable.area, "m^2", "pi D^2 / 4"),
         _computed("cable", "mass per length", cable.mass_per_length, "kg/m", "sum of density x area, lays included"),
         _computed(
@@ -54,7 +58,44 @@ def _whole(cable: Cable) -> list[Row]:
     ]
 
 
+def _sheet(cable: Cable) -> list[Row]:
+    rows = []
+    for line in data_sheet_rows(cable):
+        rows += [
+            _computed("data sheet", line.name, line.stated, line.unit, cable.data_sheet_source),
+            Row(
+                "data sheet",
+                "computed less sheet",
+                line.difference,
+                f"{line.percent + 0.0:+.2f}",
+                "%",
+                "computed",
+                line.verdict,
+            ),
+        ]
+    return rows
+
+
+def _wire_layers(cable: Cable) -> list[Row]:
+    rows = []
+    for name, wires in wire_layers(cable).items():
+        first = wires[0]
+        gap = neighbour_gap(len(wires), first.centre_radius, 2 * first.outer_radius, lay_of(first))
+        lay = lay_words(first.twist_rate)
+        rows += [
+            Row(name, "wires", float(len(wires)), f"{len(wires)} x {2e3 * first.outer_radius:.4g}", "mm", "given", ""),
+            _computed(name, "pitch circle radius", first.centre_radius, "m", "rests on what is below, or as stated"),
+            Row(name, "lay", lay_of(first), lay, "", "given", "Z right-handed, S left-handed"),
+            _computed(name, "lay angle", first.lay_angle, "rad", "atan(2 pi r / lay)"),
+        ]
+        if len(wires) > 1:
+            rows.append(_computed(name, "gap between neighbours", gap, "m", "along the lay"))
+    return rows
+
+
 def _lay(cable: Cable) -> list[Row]:
+    if not any(part.centre_radius > 0 and part.layer is None for part in cable.parts):
+        return []
     rows = [
         _computed(
             "lay-up", "pitch circle radius", cable.pitch_circle_radius, "m", "cores rest on the centre or on each other"

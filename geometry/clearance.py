@@ -77,6 +77,28 @@ def clearances(members: list[Member], lay: float | None) -> list[Clearance]:
     return sorted(found, key=lambda c: c.gap)
 
 
+def neighbour_gap(count: int, radius: float, diameter: float, lay: float | None) -> float:
+    """Gap [m] between neighbours of `count` equal members at equal angles on one circle; of one member, to its next turn.
+
+    Examples
+    --------
+    Six wires of 3.73 mm round one of 3.94 mm at a lay of 115 mm; the circles in the section would clear by 0.105 mm:
+
+    >>> round(1e3 * neighbour_gap(6, 3.835e-3, 3.73e-3, 0.115), 4)
+    0.0427
+    """
+    if count == 1:
+        return np.inf if lay is None else _next_turn(Member("", radius, 0.0, diameter / 2), lay) - diameter
+    return helix_distance(radius, radius, 2 * np.pi / count, lay) - diameter
+
+
+def shortest_lay(count: int, radius: float, diameter: float, lay: float | None) -> float | None:
+    """Shortest lay [m] from `lay` on at which neighbours clear each other; None if they overlap even when straight."""
+    if lay is None or (count > 1 and neighbour_gap(count, radius, diameter, None) < 0):
+        return None
+    return _smallest(lambda x: neighbour_gap(count, radius, diameter, x), lay, 1e3 * lay)
+
+
 def check_clearance(
     members: list[Member], lay: float | None, try_centre: Callable[[float], list[Member]] | None = None
 ) -> None:

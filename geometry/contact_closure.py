@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.clearance import TOUCH
 from geometry.errors import MeshError
 from geometry.wire_trace import WireTrace
 
@@ -49,17 +50,19 @@ def find_closures(
     curves: Sequence[WireTrace],
     cores: Sequence[int],
     centre: int | None,
-    outer: int,
+    outer: int | None,
     host_areas: Mapping[int, float],
     neck_below: float,
+    filled: bool = True,
 ) -> tuple[list[Contact], list[Neck]]:
     """Closures at all contacts, and all narrow places.
 
     Parameters
     ----------
-    curves : all outlines; `cores`, `centre` (None if absent) and `outer` (the laid-up circle) number those that bound the filler
+    curves : all outlines; `cores`, `centre` and `outer` (the laid-up circle), None if absent, number those that bound the gaps
     host_areas : area of the layer that a closure on that curve would join [m^2]
     neck_below : gaps narrower than this [m] are necks
+    filled : False where the gaps are empty: then parts that touch are joined, and narrow gaps stay open
 
     Raises
     ------
@@ -76,7 +79,7 @@ def find_closures(
         sharing = sum(1 for _, host, _, _ in near if host == b)
         closure = _closure_width(bend, CLOSURE_SHARE * host_areas[b] / sharing, curves[a].radius)
         necks.append(Neck(curves[a].point(phi), gap, bend, closure))
-        if gap < closure:
+        if gap < (closure if filled else TOUCH):
             ends = [_end(curves[a], curves[b], phi, sense, closure) for sense in (-1, 1)]
             b_ends = curves[b].nearest(curves[a].point(np.array(ends)))
             contacts.append(Contact(a, b, (ends[0], ends[1]), (float(b_ends[0]), float(b_ends[1]))))

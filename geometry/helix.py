@@ -8,7 +8,7 @@ formula (1) of Ge et al., PLoS ONE 18(2) e0281136 (2023), written over z. With t
 beta = atan(2 pi r / p) the invariants are: arc length per height 1 / cos beta, curvature sin^2 beta / r,
 torsion h sin beta cos beta / r (do Carmo, Differential Geometry of Curves and Surfaces, section 1.5).
 The frame of parallel transport (Bishop, Amer. Math. Monthly 82 (1975) 246-251, doi 10.2307/2319846) turns
-back against the torsion: e1 + i e2 = (N + i B) exp(-i torsion s).
+back against the torsion: e1 + i e2 = (N + i B) exp(i torsion s).
 """
 
 from __future__ import annotations

@@ -85,7 +85,7 @@ def host_section(cable: Cable, holes: Mapping[str, Hole], size: float | None = N
     angles = {name: _node_angles(cable.part(name), hole) for name, hole in holes.items()}
     mesh = cross_section_mesh(widened, size, "quad", {name: phi[::2] for name, phi in angles.items()})
     points, rings = mesh.points.copy(), {}
-    for name, hole in holes.items():
+    for name in holes:
         rings[name] = _ring_nodes(mesh, widened.part(name), angles[name])
         points[rings[name]] = widened.part(name).outer_trace.point(angles[name])
     regions = tuple(

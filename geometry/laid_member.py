@@ -21,7 +21,7 @@ from geometry.cable import Cable, Part
 from geometry.errors import GeometryError
 from geometry.helix import Helix
 from geometry.nested_helix import SAMPLES_PER_TURN, CentreLine, wound_on
-from geometry.strand import Conductor, layer_radii
+from geometry.strand import Conductor, Strand, layer_radii
 
 STRAIGHT = 1e9
 """Pitch [m] that stands for a straight member."""
@@ -74,7 +74,7 @@ class LaidMember:
         helix = self.levels[0]
         line = CentreLine(fine, helix.position(fine), helix.transported_frame(fine), fine / np.cos(helix.lay_angle))
         for level in self.levels[1:]:
-            line = _from_origin(wound_on(line, level), line, level, origin)
+            line = wound_from_origin(line, level, origin)
         rows = np.searchsorted(fine, heights)
         return CentreLine(heights, line.points[rows], line.frames[rows], line.s[rows] - line.s[rows[0]])
 
@@ -131,7 +131,7 @@ def laid_members(cable: Cable, level: str = "conductor", kinds: tuple[str, ...] 
     for part in cable.parts:
         if part.kind == "interstices" or (kinds is not None and part.kind not in kinds):
             continue
-        conductor = conductor_of(cable, part) if level == "strand" else None
+        conductor = stranded(cable, part) if level == "strand" else None
         found += [whole_member(part)] if conductor is None else strands(part, conductor)
     return found
 
@@ -147,11 +147,9 @@ def part_helix(part: Part) -> Helix:
     return Helix(part.centre_radius, pitch, "S" if part.twist_rate < 0 else "Z", part.phase)
 
 
-def conductor_of(cable: Cable, part: Part) -> Conductor | None:
+def stranded(cable: Cable, part: Part) -> Conductor | None:
     """Make-up of a conductor whose strands are known; None for other parts."""
-    if part.kind != "conductor":
-        return None
-    conductor = cable.conductors.get(part.material.name.removesuffix(" conductor"))
+    conductor = cable.conductor_of(part)
     return conductor if conductor is not None and conductor.strand is not None and conductor.layers else None
 
 
@@ -171,8 +169,24 @@ def strands(part: Part, conductor: Conductor) -> list[LaidMember]:
     return found
 
 
-def _from_origin(line: CentreLine, host: CentreLine, level: Helix, origin: int) -> CentreLine:
-    """The same line with s = 0 and e1 pointing away from its host line at z = 0."""
+def wires(member: LaidMember, strand: Strand) -> list[LaidMember]:
+    """The wires of a strand, from the inside; the first of each layer at the outward side of the strand at z = 0."""
+    found = []
+    for k, (n, r) in enumerate(zip(strand.layers, strand.radii, strict=True), 1):
+        for i in range(n):
+            pitch = strand.lay if r > 0 and strand.lay is not None else STRAIGHT
+            own = Helix(r, pitch, strand.hand, 2 * np.pi * i / n)
+            name = f"{member.name} wire {k}.{i + 1}"
+            found.append(LaidMember(name, member.part, 0.0, strand.wire_diameter / 2, (*member.levels, own), n))
+    return found
+
+
+def wound_from_origin(host: CentreLine, level: Helix, origin: int) -> CentreLine:
+    """A member wound on its finely sampled host line, with s = 0 and e1 pointing away from the host at the row `origin`.
+
+    The arc length of the host must be zero there, so that the phase of `level` counts from it.
+    """
+    line = wound_on(host, level)
     e1, e2 = line.frames[origin, 1:]
     h1, h2 = host.frames[origin, 1:]
     out = np.cos(level.phase) * h1 + np.sin(level.phase) * h2

@@ -1,7 +1,7 @@
 """Laying up: where the cores go, and the parts that result.
 
 The cores stand at equal angles and rest on the centre member; without one they move inwards until they touch each other.
-The laid-up circle encloses them, then wrap and sheath follow. All checks of the fit are made here.
+The laid-up circle encloses them; rings and layers of wires (wire_layer.py) follow. The fit of the cores is checked here.
 """
 
 from __future__ import annotations
@@ -30,10 +30,11 @@ class Layer:
 
 @dataclass(frozen=True)
 class Round:
-    """Round member: `name` and its layers from the inside."""
+    """Round member: `name` and its layers from the inside; a `bare` one is a single part of that name."""
 
     name: str
     layers: tuple[Layer, ...]
+    bare: bool = False
 
     @property
     def radius(self) -> float:
@@ -43,7 +44,7 @@ class Round:
 
 @dataclass(frozen=True)
 class LayUp:
-    """The laid-up parts (without wrap and sheath), pitch-circle radius of the first core and laid-up radius [m]."""
+    """The laid-up parts (without what is round them), pitch-circle radius of the first core and laid-up radius [m]."""
 
     parts: tuple[Part, ...]
     pitch_circle_radius: float
@@ -101,19 +102,20 @@ def lay_up(
     return LayUp(tuple(parts), members[0].centre_radius if members else 0.0, laid_up)
 
 
-def round_layers(
-    parts: Sequence[Part], radius: float, layers: Sequence[tuple[str, Material, float]], rate: float
-) -> list[Part]:
-    """Append rings (kind, material, wall [m]) about the axis, from `radius` outwards; returns all parts."""
-    found = list(parts)
-    for kind, material, wall in layers:
-        moments = tuple(ring_moments(0.0, 0.0, radius, radius + wall, rate).tolist())
-        found.append(Part(kind, kind, kind, material, 0.0, 0.0, radius, radius + wall, rate, moments))
-        radius += wall
-    repeated = [name for name, count in Counter(p.name for p in found).items() if count > 1]
+def ring_part(kind: str, name: str, material: Material, radius: float, wall: float, rate: float) -> Part:
+    """Ring about the axis, `radius` to `radius + wall` [m]; `rate` is that of the cable, which a ring does not show."""
+    moments = tuple(ring_moments(0.0, 0.0, radius, radius + wall, rate).tolist())
+    return Part(kind=kind, name=name, member=name, material=material, centre_radius=0.0, phase=0.0, inner_radius=radius,
+                outer_radius=radius + wall, twist_rate=rate, moments=moments)  # fmt: skip
+
+
+def check_names(parts: Sequence[Part]) -> None:
+    """Raise a SpecError if two parts have one name."""
+    repeated = [name for name, count in Counter(p.name for p in parts).items() if count > 1]
     if repeated:
-        raise SpecError(f'two parts of the cable are named "{repeated[0]}": rename the core or the conductor.')
-    return found
+        raise SpecError(
+            f'two parts of the cable are named "{repeated[0]}": rename the core, the conductor or the layer.'
+        )
 
 
 def _numbered(cores: Sequence[Round]) -> list[Round]:
@@ -134,7 +136,7 @@ def _ring_parts(member: Round, centre_radius: float, phase: float, twist_rate: f
                 f"{member.name} {layer.kind}: its outer radius must be larger than {inner * 1e3:.4g} mm."
             )
         moments = tuple(ring_moments(centre_radius, phase, inner, layer.outer_radius, twist_rate).tolist())
-        name = f"{member.name} {layer.kind}"
+        name = member.name if member.bare else f"{member.name} {layer.kind}"
         parts.append(
             Part(
                 name,

@@ -88,7 +88,7 @@ def block_sizes(points: NDArray[np.float64], cells: NDArray[np.int64], kind: str
     for part in _parts(len(cells)):
         nodes = points[cells[part]]
         for gradient, weight in zip(gradients, weights, strict=True):
-            columns = [np.tensordot(nodes, g, axes=(1, 0)) for g in gradient.T]
+            columns = [np.einsum("ekx,k->ex", nodes, g) for g in gradient.T]
             sizes[part] += weight * _determinant(columns)
     return sizes
 
@@ -96,11 +96,20 @@ def block_sizes(points: NDArray[np.float64], cells: NDArray[np.int64], kind: str
 def region_sizes(mesh: AnyMesh) -> NDArray[np.float64]:
     """Area [m^2] or volume [m^3] of every region, in the order of ``mesh.regions``."""
     region_of = np.concatenate([block.region_of for block in mesh.blocks])
-    return np.bincount(region_of, weights=element_sizes(mesh), minlength=len(mesh.regions))
+    sizes = np.zeros(len(mesh.regions))
+    np.add.at(sizes, region_of, element_sizes(mesh))
+    return sizes
 
 
-def quality_histogram(mesh: AnyMesh, bins: int = 10) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def quality_histogram(
+    mesh: AnyMesh | NDArray[np.float64], bins: int = 10
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Number of elements by scaled Jacobian.
+
+    Parameters
+    ----------
+    mesh : a mesh, or the scaled Jacobians themselves
+    bins : steps between 0 and 1
 
     Returns
     -------
@@ -116,14 +125,16 @@ def quality_histogram(mesh: AnyMesh, bins: int = 10) -> tuple[NDArray[np.int64],
     """
     if bins < 1:
         raise MeshError(f"a histogram needs at least one bin, found {bins}.")
-    edges = np.concatenate([[-1.0], np.linspace(0.0, 1.0, bins + 1)])
-    counts, _ = np.histogram(np.clip(scaled_jacobian(mesh), -1.0, 1.0), edges)
+    edges = np.concatenate([[-1.0], np.arange(bins + 1) / bins])
+    quality = mesh if isinstance(mesh, np.ndarray) else scaled_jacobian(mesh)
+    counts, _ = np.histogram(np.clip(quality, -1.0, 1.0), edges)
     return counts.astype(np.int64), edges
 
 
-def share_below(mesh: AnyMesh, quality: float = 0.2) -> float:
-    """Share of the elements, by number, whose scaled Jacobian is below `quality`."""
-    return float((scaled_jacobian(mesh) < quality).mean())
+def share_below(mesh: AnyMesh | NDArray[np.float64], limit: float = 0.2) -> float:
+    """Share of the elements, by number, whose scaled Jacobian is below `limit`; of a mesh, or of the scaled Jacobians themselves."""
+    quality = mesh if isinstance(mesh, np.ndarray) else scaled_jacobian(mesh)
+    return float((quality < limit).mean())
 
 
 def _parts(count: int) -> Iterator[slice]:

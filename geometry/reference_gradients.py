@@ -35,7 +35,7 @@ def reference_gradients(kind: str) -> tuple[list[NDArray[np.float64]], list[floa
         gradient = _triangle if kind == "triangle" else _triangle6
         return [gradient(*p) for p in TRIANGLE], [1 / 6] * 3
     if kind == "wedge":
-        return [_wedge(*p, z) for p in TRIANGLE for z in GAUSS], [1 / 6] * 6
+        return [_wedge(p[0], p[1], z) for p in TRIANGLE for z in GAUSS], [1 / 6] * 6
     if kind == "pyramid":
         gradients, weights = reference_gradients("hexahedron")
         return [np.vstack([g[:4], g[4:].sum(axis=0)]) for g in gradients], weights

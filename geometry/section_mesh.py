@@ -131,6 +131,7 @@ def _meshed(
 
 
 def _check_request(cable: Cable, size: float, kind: str) -> None:
+    cable.check_single_lay()
     if kind not in KINDS:
         raise MeshError(f'a cross-section cannot be meshed with "{kind}": choose one of {", ".join(KINDS)}.')
     if not (np.isfinite(size) and size > 0):
@@ -279,7 +280,9 @@ def _edges_on_curve(gmsh: Any, tags: list[int], row: NDArray[np.int64]) -> NDArr
 
 def _thinnest_wall(cable: Cable, curve: WireTrace) -> float:
     """Thickness of the thinnest layer beside a curve [m]; its radius if there is none."""
-    walls = [part.outer_radius - part.inner_radius for part in cable.parts if curve in (part.inner_trace, part.outer_trace)]
+    walls = [
+        part.outer_radius - part.inner_radius for part in cable.parts if curve in (part.inner_trace, part.outer_trace)
+    ]
     return min([curve.radius, *walls])
 
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from geometry.cable import Cable, Part
 from geometry.contact_closure import Contact, Neck, find_closures
 from geometry.errors import MeshError
+from geometry.laid_zone import curve_key, host_area, the_filler, zone_curves
 from geometry.wire_trace import WireTrace
 
 QUARTERS = np.linspace(0, 2 * np.pi, 5)[:-1]
@@ -74,53 +75,31 @@ def section_outline(
     index: dict[tuple[float, float, float], int] = {}
     for part in rings:
         for trace in (part.inner_trace, part.outer_trace):
-            if trace is not None and _key(trace) not in index:
-                index[_key(trace)] = len(curves)
+            if trace is not None and curve_key(trace) not in index:
+                index[curve_key(trace)] = len(curves)
                 curves.append(trace)
     outline = SectionOutline(curves)
-    zone = _zone_curves(cable, index)
+    filler = the_filler(cable)
+    if (
+        filler is not None
+        and (rim := WireTrace(0.0, 0.0, filler.outer_radius, cable.twist_rate))
+        and curve_key(rim) not in index
+    ):
+        index[curve_key(rim)] = len(curves)  # nothing lies round the filler
+        curves.append(rim)
+    zone = zone_curves(cable, index)
     contacts: list[Contact] = []
     if zone:
         cores, centre, outer = zone
-        hosts = cores + [outer] + ([centre] if centre is not None else [])
-        areas = {number: _host_area(cable, curves[number]) for number in hosts}
-        contacts, outline.necks = find_closures(curves, cores, centre, outer, areas, neck_below)
+        hosts = cores + [number for number in (centre, outer) if number is not None]
+        areas = {number: host_area(cable, curves[number], number == outer) for number in hosts}
+        contacts, outline.necks = find_closures(curves, cores, centre, outer, areas, neck_below, filler is not None)
     pieces = _cut(outline, contacts, cuts or {})
     bridges = _bridges(outline, contacts, pieces)
     _ring_faces(outline, rings, index, zone, contacts, pieces, bridges)
-    if zone and any(part.kind == "interstices" for part in cable.parts):
-        outline.faces["interstices"] = _filler_faces(outline, zone, contacts, pieces, bridges)
+    if zone and filler is not None:
+        outline.faces[filler.name] = _filler_faces(outline, zone, contacts, pieces, bridges)
     return outline
-
-
-def _key(trace: WireTrace) -> tuple[float, float, float]:
-    return (
-        round(trace.centre_radius, 12),
-        round(trace.phase if trace.centre_radius > 0 else 0.0, 9),
-        round(trace.radius, 12),
-    )
-
-
-def _zone_curves(
-    cable: Cable, index: dict[tuple[float, float, float], int]
-) -> tuple[list[int], int | None, int] | None:
-    """Curves that bound the interstices: cores, centre (or None), laid-up circle; None if the cable is coaxial."""
-    outermost = {part.member: part for part in cable.parts if part.kind not in ("interstices", "wrap", "sheath")}
-    cores = [index[_key(part.outer_trace)] for part in outermost.values() if part.centre_radius > 0]
-    centre = [index[_key(part.outer_trace)] for part in outermost.values() if part.centre_radius == 0]
-    if not cores:
-        return None
-    return cores, centre[0] if centre else None, index[(0.0, 0.0, round(cable.laid_up_radius, 12))]
-
-
-def _host_area(cable: Cable, curve: WireTrace) -> float:
-    """Area of the layer that gets the closures on this curve: outside the laid-up circle, inside any other curve."""
-    laid_up = curve.centre_radius == 0 and abs(curve.radius - cable.laid_up_radius) < 1e-12
-    for part in cable.parts:
-        trace = part.inner_trace if laid_up else part.outer_trace
-        if part.kind != "interstices" and trace is not None and _key(trace) == _key(curve):
-            return part.area
-    raise MeshError("no part lies along a curve of the section.")
 
 
 def _cut(
@@ -226,35 +205,36 @@ def _ring_faces(
     outline: SectionOutline,
     rings: list[Part],
     index: dict[tuple[float, float, float], int],
-    zone: tuple[list[int], int | None, int] | None,
+    zone: tuple[list[int], int | None, int | None] | None,
     contacts: list[Contact],
     pieces: dict[int, list[tuple[int, int | None, bool]]],
     bridges: list[list[int]],
 ) -> None:
     """Faces of all rings; the layer that touches gets the closures."""
-    laid_up = zone[2] if zone else -1
+    around = zone[2] if zone else None
 
     def boundary(number: int, sign: int, host: bool) -> list[list[int]]:
         signed = [sign * (e + 1) for e, _, removed in pieces[number] if not removed]
         return _loops(outline, signed + (_hosted(number, contacts, pieces, bridges) if host else []))
 
     for part in rings:
-        outer = index[_key(part.outer_trace)]
-        loops = boundary(outer, 1, outer != laid_up)
+        outer = index[curve_key(part.outer_trace)]
+        loops = boundary(outer, 1, outer != around)
         if part.inner_trace is not None:
-            inner = index[_key(part.inner_trace)]
-            loops += boundary(inner, -1, inner == laid_up)
+            inner = index[curve_key(part.inner_trace)]
+            loops += boundary(inner, -1, inner == around)
         outline.faces[part.name] = [loops]
 
 
 def _filler_faces(
     outline: SectionOutline,
-    zone: tuple[list[int], int | None, int],
+    zone: tuple[list[int], int | None, int | None],
     contacts: list[Contact],
     pieces: dict[int, list[tuple[int, int | None, bool]]],
     bridges: list[list[int]],
 ) -> list[list[list[int]]]:
     cores, centre, outer = zone
+    assert outer is not None
     signed = [e + 1 for e, closure, _ in pieces[outer] if closure is None]
     for number in cores + ([centre] if centre is not None else []):
         signed += [-(e + 1) for e, closure, _ in pieces[number] if closure is None]

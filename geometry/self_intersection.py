@@ -26,7 +26,7 @@ from geometry.cable import Cable, Part
 from geometry.clearance import TOUCH, helix_distance
 from geometry.errors import GeometryError
 from geometry.helix import Helix
-from geometry.laid_member import STRAIGHT, LaidMember, conductor_of, laid_members, strands
+from geometry.laid_member import STRAIGHT, LaidMember, laid_members, stranded, strands
 from geometry.nested_helix import CentreLine
 
 FLATTENING = 0.02
@@ -200,13 +200,13 @@ def _conductor_samples(cable: Cable) -> list[Part]:
     found = {
         (part.material.name, round(part.centre_radius, 9), part.twist_rate): part
         for part in reversed(cable.parts)
-        if conductor_of(cable, part) is not None
+        if stranded(cable, part) is not None
     }
     return list(found.values())
 
 
 def _strand_overlaps(cable: Cable, part: Part, length: float | None) -> Iterator[Overlap]:
-    conductor = conductor_of(cable, part)
+    conductor = stranded(cable, part)
     assert conductor is not None
     members = strands(part, conductor)
     core, outer = members[0].levels[0], members[-1].levels[-1]

@@ -5,21 +5,27 @@ from __future__ import annotations
 import logging
 import sys
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geometry.cable import Cable
-from geometry.cell_mesh import SliceMesh
+from geometry.cell_mesh import SliceMesh, SweptCell
+from geometry.doubled_nodes import DoubledMesh
 from geometry.errors import MeshError
 from geometry.helical_slice import SWEPT, helical_slice
-from geometry.mesh_quality import region_sizes, scaled_jacobian
+from geometry.interface import Interface, interfaces
+from geometry.mesh_memory import check_element_count
+from geometry.mesh_quality import quality_histogram, region_sizes, scaled_jacobian, share_below
 from geometry.section_mesh import DEFAULT_SIZE, cross_section_mesh
 
+if TYPE_CHECKING:
+    from geometry.common_period import CommonPeriod
+
 logger = logging.getLogger(__name__)
-LARGEST = 20_000_000
-BYTES_PER_ELEMENT = 700
-"""Measured peak of meshing, quality and export together, per hexahedron."""
+STEEPEST_LAYER = np.radians(5.0)
+"""Largest turn of a layer: straight edges between turned layers lose a sixth of its square, 0.13 % of the volume."""
+COUNTED = {"hexahedron": "hexes", "wedge": "prisms", "tetra": "tets", "pyramid": "pyramids"}
 
 
 def slice_of_size(
@@ -31,7 +37,7 @@ def slice_of_size(
 ) -> SliceMesh:
     """Helical slice with at least `elements` volume elements.
 
-    The section is refined until the layers are no thinner than a third of its edge length.
+    The section is refined until the layers are no thinner than a third of its edge length. No layer turns by more than 5 degrees.
 
     Parameters
     ----------
@@ -48,24 +54,18 @@ def slice_of_size(
     base = {swept: flat for flat, swept in SWEPT.items()}
     if cell_kind not in base:
         raise MeshError(f'a slice cannot be made of "{cell_kind}": choose hexahedron or wedge.')
-    if isinstance(elements, bool) or elements != int(elements) or elements < 1:
-        raise MeshError(f"the number of elements must be a whole number from 1, found {elements!r}.")
-    if elements > LARGEST:
-        raise MeshError(
-            f"{elements:.2g} elements need about {elements * BYTES_PER_ELEMENT / 1e9:.0f} GB of memory; at most {LARGEST:.0e} are made: "
-            "try fewer, for axial load and torsion 100000 are plenty."
-        )
+    elements = check_element_count(elements)
     if height is None:
         height = cable.outer_diameter / 2 if cable.lay is None else cable.lay / 8
     if not (np.isfinite(height) and height > 0):
         raise MeshError(f"the height of a slice must be a positive length, found {height:g} m.")
     size = cable.outer_diameter * DEFAULT_SIZE
-    fewest = int(np.ceil(6 * abs(cable.twist_rate) * height / np.pi - 1e-9))
+    fewest = max(1, int(np.ceil(abs(cable.twist_rate) * height / STEEPEST_LAYER - 1e-9)))
     for attempt in range(6):
         if progress:
             progress(0.15 * attempt, f"meshing the cross-section with edges of {1e3 * size:.2f} mm")
         section = cross_section_mesh(cable, size, base[cell_kind])
-        layers = max(int(np.ceil(elements / len(section.cells))), int(np.ceil(height / (3 * size))), fewest, 1)
+        layers = max(int(np.ceil(elements / len(section.cells))), int(np.ceil(height / (3 * size))), fewest)
         thin = height / layers / size
         if thin >= 1 / 3 or layers == fewest:
             break
@@ -76,32 +76,77 @@ def slice_of_size(
     return helical_slice(section, height, layers)
 
 
-def slice_record(cable: Cable, mesh: SliceMesh, seconds: float) -> dict[str, Any]:
+def slice_record(
+    cable: Cable,
+    mesh: SliceMesh | SweptCell | DoubledMesh,
+    seconds: float,
+    period: CommonPeriod | None = None,
+) -> dict[str, Any]:
     """What the command ``helicable mesh`` reports, ready for JSON; SI units.
 
-    `closed_form` is the exact volume of every region; `peak_memory` is that of the process [bytes], None where the system does
-    not tell.
+    Parameters
+    ----------
+    mesh : slice, cell, or either parted along interfaces, which then are listed as `separated` with their areas too
+    seconds : that it took
+    period : of a cell with several lays; they are listed as `lays`, nominal and adjusted, angles in rad
+
+    Returns
+    -------
+    dict
+        `closed_form` is the exact volume of every region, `interfaces` the areas by the kinds of their sides, `quality` the
+        histogram of the scaled Jacobian (its first bin holds elements inside out), `peak_memory` that of the process [bytes],
+        None where the system does not tell.
     """
-    volumes = region_sizes(mesh)
-    counted = {"hexahedron": "hexes", "wedge": "prisms"}[mesh.cell_kind]
-    return {
+    parted = [pair.interface for pair in mesh.pairs] if isinstance(mesh, DoubledMesh) else []
+    mesh = mesh.mesh if isinstance(mesh, DoubledMesh) else mesh
+    quality = scaled_jacobian(mesh)
+    counts, edges = quality_histogram(quality)
+    record = {
         "schema": 1,
         "cable": cable.name,
-        "elements": len(mesh.cells),
-        "hexes": 0,
-        "prisms": 0,
-        "tets": 0,
-        counted: len(mesh.cells),
+        "elements": len(quality),
+        **{
+            name: sum(len(block.cells) for block in mesh.blocks if block.kind == kind) for kind, name in COUNTED.items()
+        },
         "nodes": len(mesh.points),
-        "min_scaled_jacobian": float(scaled_jacobian(mesh).min()),
+        "min_scaled_jacobian": float(quality.min()),
+        "quality": {"histogram": counts.tolist(), "edges": edges.tolist(), "below_0.2": share_below(quality, 0.2)},
         "height": mesh.height,
         "matched_faces": bool(mesh.matching_gap() < 1e-9 * cable.outer_diameter),
         "regions": {
             region.name: {"volume": float(volume), "closed_form": float(region.closed_form_area * mesh.height)}
-            for region, volume in zip(mesh.regions, volumes, strict=True)
+            for region, volume in zip(mesh.regions, region_sizes(mesh), strict=True)
         },
+        "interfaces": _areas([*interfaces(mesh), *parted]),
+        "separated": _areas(parted),
         "seconds": float(seconds),
         "peak_memory": _peak_memory(),
+    }
+    return record if period is None else record | {"lays": [_lay(layer) for layer in period.layers]}
+
+
+def _areas(found: list[Interface]) -> dict[str, float]:
+    """Area [m^2] by the kinds of the two sides, "strand-insulation"."""
+    areas: dict[str, float] = {}
+    for interface in found:
+        name = "-".join(interface.kinds)
+        areas[name] = areas.get(name, 0.0) + interface.area
+    return areas
+
+
+def _lay(layer: Any) -> dict[str, Any]:
+    """A matched lay of the period."""
+    nominal = layer.nominal
+    return {
+        "name": layer.name,
+        "fold": layer.fold,
+        "turns": layer.turns,
+        "hand": layer.hand,
+        "nominal_lay": nominal.lay,
+        "lay": layer.lay,
+        "nominal_lay_angle": float(nominal.lay_angle),
+        "lay_angle": float(layer.lay_angle),
+        "change": float(layer.change),
     }
 
 

@@ -10,12 +10,12 @@ which is Kepler's equation with the eccentricity omega rho s. Nodes on the condu
 equal steps 2 pi / N of the left side, so that between z = 0 and z they have slid past each other by the index
 sigma = omega z N / (2 pi), everywhere at once.
 
-In every plane node i of the conductor is paired with node i + n of the host, n the whole number nearest to sigma. Layers between
-planes of the same n are hexahedra, sheared by at most half an index. Where n grows by one the ring of
-quadrilaterals below and the one above do not have the same pairs. That layer of the ring gets one node s_i in the middle for every
-index: its quadrilaterals on the planes, on the conductor and on the host are the bases of 4 pyramids with the apex s_i, and 5 tetrahedra
-stand about each edge from s_(i-1) to s_i. So all faces that other cells see stay quadrilaterals. A hexahedron alone cannot be
-cut so without a node inside it: a pyramid on one face has its apex in a corner, hence in two more of the faces that must stay whole.
+In every layer node i of the conductor is paired with node i + n of the host, n the whole number nearest to sigma at
+mid-height: a ring of hexahedra, sheared by about half an index at most. Where n goes on by one, the quadrilaterals of the ring below and
+above a plane do not have the same pairs. Both are cut by one diagonal each into the same triangles, which have their edges at sigma
+about +1/2 and -1/2. A hexahedron with a face cut so becomes 5 pyramids and 2 tetrahedra round a node in its middle (4 and 4
+with two such faces), and all faces that cells outside the ring see stay quadrilaterals. It cannot do without the node: a
+pyramid on one face would have its apex in a corner, and cut two other faces, one of them on the conductor or on the host.
 """
 
 from __future__ import annotations
@@ -26,6 +26,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geometry.errors import MeshError
+
+MIRRORED = [0, 3, 2, 1, 4, 7, 6, 5]
+BOTTOM, TOP = [0, 1, 2, 3], [4, 7, 6, 5]
+SIDES = [[0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]]
+"""Faces of a hexahedron, anticlockwise seen from inside."""
 
 
 def kepler_angle(theta: ArrayLike, eccentricity: ArrayLike) -> NDArray[np.float64]:
@@ -44,7 +49,8 @@ def kepler_angle(theta: ArrayLike, eccentricity: ArrayLike) -> NDArray[np.float6
     mean, e = np.broadcast_arrays(np.asarray(theta, dtype=float), np.asarray(eccentricity, dtype=float))
     if np.abs(e).max(initial=0.0) >= 0.9:
         raise MeshError(
-            f"strands turn too fast for the lay of their core (omega rho sin beta = {np.abs(e).max():.2f}, at most 0.9): lengthen their lay."
+            f"strands turn too fast for the lay of their core (omega rho sin beta = {np.abs(e).max():.2f}, at most 0.9): "
+            "lengthen their lay."
         )
     phi = mean + e * np.sin(mean)
     for _ in range(12):
@@ -56,44 +62,42 @@ def kepler_angle(theta: ArrayLike, eccentricity: ArrayLike) -> NDArray[np.float6
 
 
 def pairing(steps: int, layers: int) -> NDArray[np.int64]:
-    """Pair number n of every plane 0 .. layers, shape (layers + 1,), while the index grows from 0 to `steps` (signed).
+    """Pair number n of every layer, shape (layers,), while the index grows from 0 to `steps` (signed).
 
-    The whole number nearest to steps k / layers, halves towards zero, so that opposite hands mirror each other.
+    The whole number nearest to steps (l + 1/2) / layers, halves towards zero, so that opposite hands mirror each other.
 
     Raises
     ------
     MeshError
-        If there are fewer layers than steps, for then a layer would have to slip by more than one index.
+        If there are not more layers than steps: then the pairs at both ends could not be those of the end faces.
 
     Examples
     --------
-    >>> pairing(2, 6).tolist()
-    [0, 0, 1, 1, 1, 2, 2]
+    >>> pairing(2, 8).tolist()
+    [0, 0, 1, 1, 1, 1, 2, 2]
     """
-    if layers < abs(steps):
+    if layers <= abs(steps):
         raise MeshError(
-            f"{layers} layers are too few for a conductor that slips by {abs(steps)} nodes: take at least {abs(steps)}."
+            f"{layers} layers are too few for a conductor that slips by {abs(steps)} nodes: take at least {abs(steps) + 1}."
         )
-    k = np.arange(layers + 1)
-    return np.sign(steps) * ((2 * abs(steps) * k + layers - 1) // (2 * layers))
+    middle = 2 * np.arange(layers) + 1
+    return (1 if steps >= 0 else -1) * ((2 * abs(steps) * middle + 2 * layers - 1) // (4 * layers))
 
 
 @dataclass(frozen=True)
 class SlipRing:
-    """Cells of a slip ring by node number.
+    """Cells of a slip ring by node number, in meshio order.
 
     Attributes
     ----------
-    hexahedra, pyramids, tetrahedra : (m, 8), (m, 5), (m, 4) in meshio order
-    slips : (t,) the layers in which the pairs change; each has N inner nodes, numbered from `first` on, layer by layer
-    places : (t, N) their places as an index of the host, 0 .. N, at mid-height and mid-radius
+    hexahedra, pyramids, tetrahedra : (m, 8), (m, 5), (m, 4)
+    divided : (q, 8) the hexahedra that are pyramids and tetrahedra now; the node in the middle of number k is `first` + k
     """
 
     hexahedra: NDArray[np.int64]
     pyramids: NDArray[np.int64]
     tetrahedra: NDArray[np.int64]
-    slips: NDArray[np.int64]
-    places: NDArray[np.float64]
+    divided: NDArray[np.int64]
 
 
 def slip_ring(inner: NDArray[np.int64], outer: NDArray[np.int64], steps: int, first: int) -> SlipRing:
@@ -109,57 +113,48 @@ def slip_ring(inner: NDArray[np.int64], outer: NDArray[np.int64], steps: int, fi
     Raises
     ------
     MeshError
-        If there are fewer layers than steps.
+        If there are not more layers than steps.
     """
     layers, N = len(inner) - 1, inner.shape[1]
-    if steps < 0:  # seen in a mirror; node numbers keep their places, cells are turned inside out and back
+    if steps < 0:  # seen in a mirror: cells turned inside out, and back
         ring = slip_ring(_mirrored(inner), _mirrored(outer), -steps, first)
         return SlipRing(
-            ring.hexahedra[:, [0, 3, 2, 1, 4, 7, 6, 5]],
+            ring.hexahedra[:, MIRRORED],
             ring.pyramids[:, [0, 3, 2, 1, 4]],
-            ring.tetrahedra[:, [0, 1, 3, 2]],
-            ring.slips,
-            -ring.places,
+            ring.tetrahedra[:, [0, 2, 1, 3]],
+            ring.divided[:, MIRRORED],
         )
     n = pairing(steps, layers)
-    k = np.arange(layers)
-    same, slips = k[n[1:] == n[:-1]], k[n[1:] != n[:-1]]
-    i = np.arange(N)
-
-    def c(plane: NDArray[np.int64], shift: int = 0) -> NDArray[np.int64]:
-        return inner[plane[:, None], (i + shift) % N]
-
-    def h(plane: NDArray[np.int64], pair: NDArray[np.int64], shift: int = 0) -> NDArray[np.int64]:
-        return outer[plane[:, None], (i + pair[:, None] + shift) % N]
-
-    low, high = same, same + 1
-    hexahedra = [c(low), h(low, n[low]), h(low, n[low], 1), c(low, 1)]
-    hexahedra += [c(high), h(high, n[low]), h(high, n[low], 1), c(high, 1)]
-    low, high, p = slips, slips + 1, n[slips]
-    s = first + np.arange(len(slips))[:, None] * N + i
-    pyramids = [
-        (c(low), h(low, p), h(low, p, 1), c(low, 1), s),
-        (c(high), c(high, 1), h(high, p, 2), h(high, p, 1), s),
-        (c(low), c(low, 1), c(high, 1), c(high), s),
-        (h(low, p), h(high, p), h(high, p, 1), h(low, p, 1), s),
-    ]
-    around = [c(low), h(low, p), h(high, p), h(high, p, 1), c(high), c(low)]  # closed line between groups i - 1 and i
-    before = first + np.arange(len(slips))[:, None] * N + (i - 1) % N
-    tetrahedra = [(before, s, end, start) for start, end in zip(around[:-1], around[1:], strict=True)]
-    sigma = steps * np.arange(layers + 1) / layers - n
-    return SlipRing(
-        _rows([tuple(hexahedra)], 8),
-        _rows(pyramids, 5),
-        _rows(tetrahedra, 4),
-        slips,
-        i + (p + (2.5 + sigma[low] + sigma[high] + 1) / 4)[:, None],
+    i, plane = np.arange(N), np.arange(layers)[:, None]
+    following = (i + 1) % N
+    j, beside = (i + n[:, None]) % N, (i + n[:, None] + 1) % N
+    cells = np.stack(
+        [
+            pick
+            for k in (plane, plane + 1)
+            for pick in (inner[k, i], outer[k, j], outer[k, beside], inner[k, following])
+        ],
+        axis=-1,
     )
+    changed = np.concatenate([[False], n[1:] != n[:-1], [False]])
+    below, above = (np.repeat(c, N) for c in (changed[:-1], changed[1:]))
+    cells = cells.reshape(-1, 8)
+    cut = below | above
+    return SlipRing(cells[~cut], *_divided(cells[cut], below[cut], above[cut], first), cells[cut])
+
+
+def _divided(
+    cells: NDArray[np.int64], below: NDArray[np.bool_], above: NDArray[np.bool_], first: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Pyramids and tetrahedra round a node in the middle of hexahedra whose bottom (`below`) or top face is cut in two."""
+    middle = first + np.arange(len(cells))[:, None]
+    pyramids = [np.hstack([cells[:, face], middle]) for face in SIDES]
+    pyramids += [np.hstack([cells[:, face], middle])[~cut] for face, cut in ((BOTTOM, below), (TOP, above))]
+    tetrahedra = [np.hstack([cells[:, face], middle])[below] for face in ([0, 1, 3], [1, 2, 3])]
+    tetrahedra += [np.hstack([cells[:, face], middle])[above] for face in ([4, 6, 5], [4, 7, 6])]
+    return np.concatenate(pyramids), np.concatenate(tetrahedra)
 
 
 def _mirrored(nodes: NDArray[np.int64]) -> NDArray[np.int64]:
     """Node numbers with the index counted the other way round, 0 kept."""
     return np.roll(nodes[:, ::-1], 1, axis=1)
-
-
-def _rows(cells: list[tuple[NDArray[np.int64], ...]], width: int) -> NDArray[np.int64]:
-    return np.concatenate([np.stack(nodes, axis=-1).reshape(-1, width) for nodes in cells])

@@ -124,7 +124,8 @@ class Conductor:
     """Conductor of a core as one homogeneous cylinder.
 
     `density` counts the true mass per length of the conductor, lay included; `density_without_lay` is metal area x
-    density of the metal over the cylinder. `strand` is None where the make-up is not modelled.
+    density of the metal over the cylinder. `strand` is None where the make-up is not modelled; `wires` counts its wires, 1 for a solid
+    rod, 0 where they are not known.
     """
 
     name: str
@@ -138,6 +139,7 @@ class Conductor:
     layers: tuple[int, ...] = ()
     lay: float | None = None
     hand: str = "Z"
+    wires: int = 0
 
     @property
     def area(self) -> float:
@@ -207,6 +209,7 @@ def stranded_conductor(
         layers=layers,
         lay=lay,
         hand=hand,
+        wires=count * sum(strand.layers),
     )
 
 

@@ -67,9 +67,9 @@ def write_solids(
         with gmsh_session(cable.name) as gmsh:
             gmsh.option.setString("Geometry.OCCTargetUnit", "MM")
             models: dict[tuple[Any, ...], tuple[int, float, float]] = {}
-            for member in members:
-                tag, closed = _solid(gmsh, member, length, models)
-                gmsh.model.occ.synchronize()
+            made = [_solid(gmsh, member, length, models) for member in members]
+            gmsh.model.occ.synchronize()
+            for member, (tag, closed) in zip(members, made, strict=True):
                 gmsh.model.setEntityName(3, tag, member.name)
                 found.append(Solid(member.name, 1e-9 * gmsh.model.occ.getMass(3, tag), closed))
             with quiet_output():

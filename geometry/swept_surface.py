@@ -11,7 +11,7 @@ from geometry.wire_trace import WireTrace
 SIDES = 96
 """Points round a part."""
 WIRE_SIDES = 8
-"""Points round a wire."""
+"""Points round a thin wire."""
 
 
 def swept_surface(trace: WireTrace, start: float, end: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
@@ -30,15 +30,15 @@ def swept_surface(trace: WireTrace, start: float, end: float) -> tuple[NDArray[n
 
 
 def wire_surfaces(
-    lines: list[CentreLine], radius: float
+    lines: list[CentreLine], radius: float, sides: int = WIRE_SIDES
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
     """Points, normals and quadrilaterals of round tubes along centre lines with the same number of samples."""
-    angle = 2 * np.pi * np.arange(WIRE_SIDES) / WIRE_SIDES
+    angle = 2 * np.pi * np.arange(sides) / sides
     frames = np.stack([line.frames for line in lines])[:, :, None]
     normals = np.cos(angle)[:, None] * frames[..., 1, :] + np.sin(angle)[:, None] * frames[..., 2, :]
     points = np.stack([line.points for line in lines])[:, :, None] + radius * normals
     rows = points.shape[1]
-    number = np.arange(points.shape[0] * rows * WIRE_SIDES).reshape(len(lines), rows, WIRE_SIDES)
+    number = np.arange(points.shape[0] * rows * sides).reshape(len(lines), rows, sides)
     following = np.roll(number, -1, axis=2)
     quads = np.stack([number[:, :-1], following[:, :-1], following[:, 1:], number[:, 1:]], axis=-1)
     return points.reshape(-1, 3), normals.reshape(-1, 3), quads.reshape(-1, 4)

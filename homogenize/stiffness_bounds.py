@@ -103,6 +103,9 @@ def wire_modulus(strand: Strand) -> float:
 def loose_conductor(conductor: Conductor) -> tuple[float, float]:
     """EI and GJ [N m^2] of a straight conductor whose wires all slide; zero where its make-up is not known."""
     strand = conductor.strand
+    if conductor.wires == 1:  # a solid rod
+        solid = conductor.E * np.pi * conductor.diameter**4 / 64
+        return float(solid), float(solid / (1 + conductor.nu))
     if strand is None:
         return 0.0, 0.0
     own = wire_modulus(strand) * np.pi * strand.wire_diameter**4 / 64

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import math
+import re
+from collections import Counter
+from dataclasses import asdict
 from typing import Annotated, Any
 
 import typer
 
-from geometry import Cable, Member, clearances, describe, draw_cross_section, draw_cutaway, marked_rows, read_cable
+from geometry import Cable, data_sheet_rows, describe, draw_cross_section, draw_cutaway, marked_rows, read_cable
+from geometry.wire_layer import neighbour_clearances, wire_layers
 from helicable.options import CableArgument, JsonOption, OutOption
 from helicable.screen import folder, progress, say, table, write_json
 
-LAYERS = ("interstices", "wrap", "sheath")
-"""Kinds of parts that lie about the axis outside the cores."""
+MOST_ROWS = 12
+"""Clearances that are listed one by one."""
 
 
 def show(
@@ -28,9 +33,15 @@ def show(
     """
     made = read_cable(cable)
     say(f"[bold]{made.name}[/bold]: {made.title}\n")
-    table("Derived", ("", "quantity", "value"), [r[:3] for r in derived_rows(made)], right=(2,))
-    table("Parts", ("part", "from mm", "to mm", "material", "g/m"), part_rows(made), right=(1, 2, 4))
-    table("Clearances along the lay", ("between", "gap mm"), clearance_rows(made), right=(1,))
+    table("Derived", ("", "quantity", "value"), [r[:3] for r in derived_rows(made, sheet=False)], right=(2,))
+    if made.data_sheet:
+        heads = ("", "computed", "data sheet", "difference", "range of the sheet")
+        table(f"Beside the data sheet ({made.data_sheet_source})", heads, sheet_rows(made), right=(1, 2, 3))
+    heads = ("part", "from mm", "to mm", "off the axis mm", "material", "g/m")
+    table("Parts", heads, part_rows(made), right=(1, 2, 3, 5))
+    gaps = clearance_rows(made)
+    if gaps:
+        table("Clearances along the lay", ("between", "gap mm"), gaps, right=(1,))
     rows = number_rows(made)
     if sources:
         table("Numbers of the file", ("number", "value", "status", "source"), rows)
@@ -50,36 +61,52 @@ def show(
         say(f"written: {out / 'cross-section.png'}, {out / 'cutaway.png'}")
 
 
-def derived_rows(cable: Cable) -> list[tuple[str, ...]]:
-    """Group, quantity, value with unit, and how it is derived; the group is named once."""
+def derived_rows(cable: Cable, sheet: bool = True) -> list[tuple[str, ...]]:
+    """Group, quantity, value with unit, and how it is derived; the group is named once. `sheet`: with the data sheet."""
     rows, last = [], ""
     for r in describe(cable):
+        if r.group == "data sheet" and not sheet:
+            continue
         rows.append(("" if r.group == last else r.group, r.name, f"{r.shown} {r.unit}".strip(), r.source))
         last = r.group
     return rows
 
 
+def sheet_rows(cable: Cable) -> list[tuple[str, ...]]:
+    """Computed, stated, difference, and whether the computed value lies in the range of the data sheet."""
+    rows = []
+    for r in data_sheet_rows(cable):
+        factor, unit = (1e3, "mm") if r.unit == "m" else (1.0, r.unit)
+        values = (f"{factor * r.computed:.2f} {unit}", f"{factor * r.stated:.2f} {unit}", f"{r.percent:+.1f} %")
+        rows.append((r.name, *values, r.verdict))
+    return rows
+
+
 def part_rows(cable: Cable) -> list[tuple[str, ...]]:
-    """One row for each part, from the centre outwards."""
-    return [
-        (
-            p.name,
-            f"{1e3 * p.inner_radius:.3f}",
-            f"{1e3 * p.outer_radius:.3f}",
-            p.material.name,
-            f"{1e3 * p.mass_per_length:.1f}",
-        )
-        for p in cable.parts
-    ]
+    """One row for each part, from the centre outwards; the wires of a layer share one."""
+    layers = wire_layers(cable)
+    rows = []
+    for p in cable.parts:
+        wires = layers.get(p.layer or "", (p,))
+        if p is not wires[0]:
+            continue
+        name = p.name if p.layer is None else f"{p.layer}: {len(wires)} wire{'s' if len(wires) > 1 else ''}"
+        ends = f"{1e3 * p.inner_radius:.3f}", f"{1e3 * p.outer_radius:.3f}"
+        mass = sum(wire.mass_per_length for wire in wires)
+        rows.append((name, *ends, f"{1e3 * p.centre_radius:.3f}", p.material.name, f"{1e3 * mass:.1f}"))
+    return rows
 
 
 def clearance_rows(cable: Cable) -> list[tuple[str, str]]:
-    """Neighbours (less than a core's radius apart) and the gap between them along the lay, smallest first."""
-    outer = {p.member: p for p in cable.parts if p.kind not in LAYERS}  # the last part of a member is its outermost
-    members = [Member(name, p.centre_radius, p.phase, p.outer_radius) for name, p in outer.items()]
-    near = 0.9 * max(p.outer_radius for p in outer.values())
-    found = [c for c in clearances(members, cable.lay) if c.gap < near]
-    return [(f"{c.first} - {c.second}", f"{1e3 * c.gap + 0.0:.3f}") for c in found]
+    """Neighbours and the gap between them along the lay, smallest first; pairs that are alike share a row in long lists."""
+    found = neighbour_clearances(cable)
+    names = [f"{c.first} - {c.second}" for c in found]
+    gaps = [f"{round(1e3 * c.gap, 3) + 0.0:.3f}" for c in found]
+    rows = list(zip(names, gaps, strict=True))
+    if len(rows) <= MOST_ROWS:
+        return rows
+    alike = Counter((re.sub(r" \d+(?= |$)", "", name), gap) for name, gap in rows)
+    return [(name if count == 1 else f"{name} ({count} times)", gap) for (name, gap), count in alike.items()]
 
 
 def number_rows(cable: Cable) -> list[tuple[str, ...]]:
@@ -101,6 +128,12 @@ def cable_record(cable: Cable) -> dict[str, Any]:
         "lay": cable.lay,
         "hand": cable.hand,
         "lay_angle": cable.lay_angle,
+        "lays": [2 * math.pi / rate if rate else None for rate in cable.lays],
+        "data_sheet": [
+            {**r._asdict(), "difference": r.difference, "inside": r.inside, "source": cable.data_sheet_source}
+            for r in data_sheet_rows(cable)
+        ],
+        "clearances": [asdict(c) for c in neighbour_clearances(cable)],
         "parts": [
             {
                 "name": p.name,
@@ -109,6 +142,9 @@ def cable_record(cable: Cable) -> dict[str, Any]:
                 "outer_radius": p.outer_radius,
                 "centre_radius": p.centre_radius,
                 "phase": p.phase,
+                "twist_rate": p.twist_rate,
+                "conductor": p.conductor,
+                "layer": p.layer,
                 "material": p.material.name,
                 "E": p.material.E,
                 "nu": p.material.nu,

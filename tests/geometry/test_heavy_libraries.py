@@ -11,7 +11,7 @@ import geometry
 from geometry import MeshError
 from geometry.gmsh_session import load_gmsh, missing_library_sentence
 
-DOORS = {"gmsh": "gmsh_session.py", "meshio": "mesh_file.py", "pyvista": "cutaway_picture.py", "pint": "units.py"}
+DOORS = {"gmsh": "gmsh_session.py", "meshio": "mesh_file.py", "pyvista": "rendered_scene.py", "pint": "units.py"}
 
 
 @pytest.mark.parametrize("library", DOORS)

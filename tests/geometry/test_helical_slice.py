@@ -1,5 +1,7 @@
 """The slice: end faces match under the helical motion, volumes are area x height, lay and hand are respected."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,9 @@ from geometry import (
     slice_of_size,
     slice_record,
 )
+from geometry.common_period import cell_of
+from geometry.doubled_nodes import double_nodes
+from geometry.interface import interfaces, select_interfaces
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +43,9 @@ def test_a_wrong_twist_does_not_match(section):
     from dataclasses import replace
 
     mesh = replace(helical_slice(section, 0.02, 2), twist_rate=1.01 * section.twist_rate)
-    assert mesh.matching_gap() == pytest.approx(0.0258 * 0.01 * section.twist_rate * 0.02, rel=1e-3)
+    radius = np.hypot(*section.points.T).max()  # corners of the area-true polygon lie a little outside 25.8 mm
+    assert radius == pytest.approx(0.0258, rel=3e-3)
+    assert mesh.matching_gap() == pytest.approx(radius * 0.01 * section.twist_rate * 0.02, rel=1e-4)
 
 
 def test_volumes_are_area_times_height(section):
@@ -102,8 +109,47 @@ def test_slice_of_at_least_so_many_elements(cable, asked):
     assert record["min_scaled_jacobian"] > 0.1
     assert all(0 <= fraction <= 1 for fraction, _ in said) and said
     for name, region in record["regions"].items():
-        assert region["volume"] == pytest.approx(region["closed_form"], rel=0.02), name
+        limit = (
+            5e-3 if cable.part(name).kind in ("cover", "wrap") else 2.5e-3
+        )  # closures of contacts add 0.4 % to these two
+        assert region["volume"] == pytest.approx(region["closed_form"], rel=limit), name
         assert region["closed_form"] == pytest.approx(cable.part(name).area * mesh.height)
+
+
+def test_the_record_tells_quality_and_interfaces(cable):
+    mesh = slice_of_size(cable, 5000)
+    record = slice_record(cable, mesh, 0.0)
+    quality = scaled_jacobian(mesh)
+    assert sum(record["quality"]["histogram"]) == record["elements"]
+    assert len(record["quality"]["edges"]) == len(record["quality"]["histogram"]) + 1
+    assert record["quality"]["below_0.2"] == (quality < 0.2).mean()
+    assert record["pyramids"] == 0 and record["separated"] == {} and "lays" not in record
+    found = interfaces(mesh)
+    assert set(record["interfaces"]) == {"-".join(i.kinds) for i in found}
+    assert sum(record["interfaces"].values()) == pytest.approx(sum(i.area for i in found))
+    json.dumps(record, allow_nan=False)
+    parted = slice_record(cable, double_nodes(mesh, select_interfaces(found, "conductor-insulation")), 0.0)
+    assert parted["interfaces"] == pytest.approx(record["interfaces"])
+    assert set(parted["separated"]) == {"conductor-insulation", "conductor-cover"}
+    assert parted["nodes"] > record["nodes"] and parted["regions"] == record["regions"]
+
+
+def test_the_record_lists_the_lays_of_a_common_period(cable):
+    period = cell_of(cable)
+    lays = slice_record(cable, slice_of_size(cable, 1000), 0.0, period)["lays"]
+    assert [lay["name"] for lay in lays] == [layer.name for layer in period.layers] != []
+    for lay, layer in zip(lays, period.layers):
+        assert (lay["lay"], lay["nominal_lay"], lay["turns"]) == (layer.lay, layer.nominal.lay, layer.turns)
+        assert (
+            lay["change"] == pytest.approx(lay["lay_angle"] - lay["nominal_lay_angle"], abs=1e-9) or lay["lay"] is None
+        )
+    json.dumps(lays, allow_nan=False)
+
+
+def test_layers_turn_by_five_degrees_at_most(cable):
+    """An eighth of the lay is 45 degrees: nine layers, however few elements are asked for."""
+    mesh = slice_of_size(cable, 1)
+    assert len(np.unique(np.round(mesh.points[:, 2], 9))) == 10
 
 
 def test_slice_of_wedges(cable):

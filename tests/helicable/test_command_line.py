@@ -115,7 +115,7 @@ def test_mesh_writes_the_file_and_the_contracts_keys(tmp_path):
     assert found["matched_faces"] is True
     assert found["min_scaled_jacobian"] > 0
     for region in found["regions"].values():
-        assert region["volume"] == pytest.approx(region["closed_form"], rel=0.03)  # straight edges, coarse mesh
+        assert region["volume"] == pytest.approx(region["closed_form"], rel=5e-3)
     assert file.stat().st_size > 10_000
 
 
@@ -138,7 +138,7 @@ BAD = [
     (["homogenize", CABLE, "--interface", "glued"], "frictionless"),
     (["homogenize", CABLE, "--method", "cell", "--interface", "frictionless"], "helical"),
     (["mesh", CABLE, "--elements", "0"], "element"),
-    (["mesh", CABLE, "--elements", "1000000000"], "element"),
+    (["mesh", CABLE, "--elements", "1000000000"], "700 GB of memory; at most 2e+07 are made: try fewer"),
     (["tow"], "--list"),
     (["tow", "no-such-scenario"], "no-such-scenario"),
     (["tow", "intelligent-horizontal", "--constants", "nothing.json"], "nothing.json"),
