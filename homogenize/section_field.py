@@ -25,7 +25,8 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from geometry.cell_mesh import CrossSectionMesh
-from homogenize.element_basis import element_basis
+from homogenize.element_basis import ElementBasis, element_basis
+from homogenize.transverse_isotropy import TransverseIsotropy
 
 FloatArray = NDArray[np.float64]
 
@@ -42,7 +43,7 @@ class SectionField:
     gradient : (2, k, e, q) their derivatives by X and Y [1/m]
     weight : (e, q) quadrature weight times area [m^2]
     position : (2, e, q) quadrature points [m]
-    elasticity : (e, 6, 6) stiffness of the material [Pa]
+    elasticity : (e, 6, 6) stiffness of the material [Pa]; where the fibres of a material turn, its mean over the element
     twist_rate : tau_0 [rad/m]
     """
 
@@ -132,7 +133,6 @@ def section_field(mesh: CrossSectionMesh) -> SectionField:
     basis = element_basis(
         mesh.points, mesh.cells, mesh.cell_kind, lambda e: f"an element of {mesh.regions[mesh.region_of[e]].name}"
     )
-    by_region = np.array([region.material.elasticity() for region in mesh.regions])
     return SectionField(
         nodes=basis.nodes,
         cells=basis.cells,
@@ -140,10 +140,23 @@ def section_field(mesh: CrossSectionMesh) -> SectionField:
         gradient=basis.gradient,
         weight=basis.weight,
         position=basis.position,
-        elasticity=by_region[mesh.region_of],
+        elasticity=_elasticity(mesh, basis),
         region_of=mesh.region_of,
         twist_rate=mesh.twist_rate,
     )
+
+
+def _elasticity(mesh: CrossSectionMesh, basis: ElementBasis) -> FloatArray:
+    """Stiffness (e, 6, 6) in rotating components; along helical fibres the mean over each element."""
+    C = np.array([region.material.elasticity() for region in mesh.regions])[mesh.region_of]
+    for number, region in enumerate(mesh.regions):
+        material = region.material
+        if isinstance(material, TransverseIsotropy):
+            inside = mesh.region_of == number
+            X, Y = basis.position[:, inside]
+            share = basis.weight[inside] / basis.weight[inside].sum(axis=1, keepdims=True)
+            C[inside] = np.einsum("eq,eqij->eij", share, material.elasticity_at(X, Y, mesh.twist_rate))
+    return C
 
 
 def _gram(field: SectionField, left: FloatArray, right: FloatArray) -> sp.csr_array:
