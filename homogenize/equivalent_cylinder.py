@@ -37,7 +37,7 @@ LARGEST_MISFIT = 1e-8
 
 @dataclass(frozen=True)
 class EquivalentCylinder:
-    """Material of the cylinder, its fibres turning at `material.turn_rate` per arc length of the conductor; radius [m]; 6x6 when straight."""
+    """Its material, the fibres turning at `material.turn_rate` per arc length of the conductor; radius [m]; 6x6 when straight."""
 
     material: TransverseIsotropy
     radius: float
@@ -119,7 +119,12 @@ def _tuned(
         x = np.zeros(3)
     else:
         x = least_squares(
-            misfit, np.array([0.0, -1.0, 0.5 * rate * radius]), x_scale=[1.0, 1.0, 0.1], xtol=1e-15, ftol=1e-15, gtol=1e-15
+            misfit,
+            np.array([0.0, -1.0, 0.5 * rate * radius]),
+            x_scale=[1.0, 1.0, 0.1],
+            xtol=1e-15,
+            ftol=1e-15,
+            gtol=1e-15,
         ).x
     worst = float(np.abs(misfit(x)).max())
     if not worst < LARGEST_MISFIT:

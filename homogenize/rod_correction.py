@@ -7,7 +7,7 @@ strains of the cable, kappa = J psi,
 .. math::  C_{corrected} = C + \sum \frac{EI - EI_{drawn}}{\cos\beta} J^T J .
 
 The displacements are those of the drawn section, so that by the principle of least energy C_corrected is an upper bound of
-what a new solution would give (exact where the member is thin and what is round it is soft, so that it follows the cable whatever its own EI).
+what a new solution would give, and exact where the member is thin and what is round it is soft: it follows the cable whatever its EI.
 J comes from the field: curvature is the first moment of the strain e_tt along the member over its normal section,
 
 .. math::  \kappa_n = \int e_{tt}\, d_n \,dA \Big/ \int d_n^2 \,dA ,

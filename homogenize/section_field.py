@@ -167,7 +167,8 @@ def _turning(mesh: CrossSectionMesh, basis: ElementBasis, C: FloatArray) -> Floa
     for number in fibrous:
         material, inside = mesh.regions[number].material, mesh.region_of == number
         assert isinstance(material, TransverseIsotropy)
-        turning[inside] = material.elasticity_at(*basis.position[:, inside], mesh.twist_rate)
+        X, Y = basis.position[:, inside]
+        turning[inside] = material.elasticity_at(X, Y, mesh.twist_rate)
     return turning
 
 

@@ -9,7 +9,8 @@ r"""Strand, conductor, core, cable: each stage replaced by its equivalent before
    taken off (:mod:`homogenize.rod_correction`).
 
 Conductors without strands stay what the cable file says. The stages are one way: the rope is solved with free sides and pure
-section strains, so that local contact with the insulation is not seen; :mod:`benchmarks.two_stage` shows the difference to a cell with all strands.
+section strains, so that local contact with the insulation is not seen; benchmarks/two_stage.py shows the difference to a cell
+with all strands.
 """
 
 from __future__ import annotations
@@ -127,9 +128,13 @@ def two_stage(
     """
     tell = progress or (lambda fraction, sentence: None)
     used = {part.conductor for part in cable.parts if part.conductor is not None}
-    stranded = [c for name, c in cable.conductors.items() if name in used and c.strand is not None and sum(c.layers) > 1]
+    stranded = [
+        c for name, c in cable.conductors.items() if name in used and c.strand is not None and sum(c.layers) > 1
+    ]
     if not stranded:
-        raise SpecError(f"no conductor of {cable.name} has strands, so that there is nothing to replace: use the helical cell.")
+        raise SpecError(
+            f"no conductor of {cable.name} has strands, so that there is nothing to replace: use the helical cell."
+        )
     ropes: dict[str, tuple[StrandSection, EquivalentCylinder]] = {}
     for k, conductor in enumerate(stranded):
         tell(0.4 * k / len(stranded), f"solving the strands of conductor {conductor.name}")

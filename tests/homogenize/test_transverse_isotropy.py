@@ -82,10 +82,12 @@ def test_fibres_lie_along_their_direction():
 
 
 def test_fibres_follow_the_helix():
-    """At (0, Y) a fibre that turns with the cable points along (-tau Y, 0, 1); one that does not turn about its centre is parallel to it."""
+    """At (0, Y) a fibre that turns with the cable points along (-tau Y, 0, 1); fibres that do not turn about their centre are parallel."""
     turning = ROPE.direction(0.0, 0.5, 0.8)
     np.testing.assert_allclose(turning / turning[2], [-0.4, 0.0, 1.0], rtol=1e-14, atol=1e-16)
-    parallel = replace(ROPE, centre=(2.0, 0.0), turn_rate=0.0).direction(np.array([2.0, 2.3]), np.array([0.0, -0.4]), 0.8)
+    parallel = replace(ROPE, centre=(2.0, 0.0), turn_rate=0.0).direction(
+        np.array([2.0, 2.3]), np.array([0.0, -0.4]), 0.8
+    )
     np.testing.assert_allclose(parallel[0], parallel[1], rtol=1e-14)
     np.testing.assert_allclose(parallel[0] / parallel[0][2], [0.0, 1.6, 1.0], atol=1e-14)
 
@@ -120,9 +122,7 @@ def test_stiff_fibres_carry_by_their_angle():
 
 def test_the_mirror_image_changes_the_coupling_only():
     """Reversing all turns: C keeps its diagonal and changes the sign of stretch-twist."""
-    left, right = (
-        pitch_average(solve_helical_cell(cylinder(ROPE, tau, 2, 16)).stiffness).C for tau in (-0.6, 0.6)
-    )
+    left, right = (pitch_average(solve_helical_cell(cylinder(ROPE, tau, 2, 16)).stiffness).C for tau in (-0.6, 0.6))
     np.testing.assert_allclose(np.diag(left), np.diag(right), rtol=1e-4)  # the triangles are not mirrored
     assert right[2, 5] > 0.1
     assert left[2, 5] == pytest.approx(-right[2, 5], rel=1e-3)

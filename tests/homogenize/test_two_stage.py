@@ -101,7 +101,9 @@ def test_bending_put_right_is_exact_for_a_straight_rod():
     """A rod on the axis of a cylinder, its EI raised or lowered: C44 and C55 change by just that."""
     mesh = rings((0.4, 1.0), (1000.0, 0.3), (1.0, 0.3), per_ring=3, around=24)
     cell = solve_helical_cell(mesh)
-    part = Part("rod", "conductor", "rod", Material("m", 1.0, 0.3, 1.0), 0.0, 0.0, 0.0, 0.4, 0.0, (np.pi * 0.16, 0, 0, 0, 0, 0))
+    part = Part(
+        "rod", "conductor", "rod", Material("m", 1.0, 0.3, 1.0), 0.0, 0.0, 0.0, 0.4, 0.0, (np.pi * 0.16, 0, 0, 0, 0, 0)
+    )
     change = bending_correction(cell, 0, part, -2.0)
     np.testing.assert_allclose(change[3:5, 3:5], -2.0 * np.eye(2), rtol=1e-3, atol=2e-3)
     np.testing.assert_allclose(np.delete(np.delete(change, [3, 4], 0), [3, 4], 1), 0, atol=1e-3)
@@ -118,7 +120,7 @@ def off_axis(rho, phi):
 
 
 def test_correction_finds_the_cable_with_a_slacker_core():
-    """A laid core of two materials, with the EA and 0.475 of the EI of one material, in soft rubber: solved, and by correcting the solid core.
+    """A laid core of two materials, with the EA and 0.475 of the EI of one, in soft rubber: solved, and by correcting the solid core.
 
     The correction is an upper bound, here of C without release of shear; it is off by less than a tenth of what it takes away.
     """
@@ -127,7 +129,9 @@ def test_correction_finds_the_cable_with_a_slacker_core():
         solve_helical_cell(rings((*radii, 3.0), *core, rubber, per_ring=3, around=24, twist_rate=tau, shape=off_axis))
         for radii, core in (((1.0,), [(1e4, 0.3)]), ((0.5, 1.0), [(3.1e4, 0.3), (0.3e4, 0.3)]))
     )
-    part = Part("core", "conductor", "core", Material("m", 1.0, 0.3, 1.0), 1.2, 0.0, 0.0, 1.0, tau, (np.pi, 0, 0, 0, 0, 0))
+    part = Part(
+        "core", "conductor", "core", Material("m", 1.0, 0.3, 1.0), 1.2, 0.0, 0.0, 1.0, tau, (np.pi, 0, 0, 0, 0, 0)
+    )
     corrected = solid.stiffness.C + bending_correction(solid, 0, part, -0.525 * 1e4 * np.pi / 4)
     drawn, true = (pitch_average(cell.stiffness).EI_x for cell in (solid, graded))
     found = pitch_average(SectionStiffness(corrected, solid.stiffness.area)).EI_x
@@ -141,7 +145,7 @@ def cables():
 
 
 def test_sliding_strands_soften_the_cable(cables):
-    """EA at either end condition, GJ and EI of sliding strands are below those of bonded ones and above the straight centre and the loose wires."""
+    """EA at either end condition, GJ and EI are lower if strands slide; EA stays above that of the straight centre."""
     bonded, sliding = cables["bonded"].section, cables["frictionless"].section
     for name in ("EA_blocked_twist", "EA_free_twist", "GJ", "EI_x"):
         assert getattr(sliding, name) < getattr(bonded, name)
