@@ -1,16 +1,17 @@
 """From a meshed cable to the stiffness of its beam section.
 
-The path: a cross-section mesh -> :func:`solve_helical_cell` (2D, full 6x6) or a slice -> :func:`solve_periodic_cell` (3D, tension and
-torsion) -> :class:`SectionStiffness`, with :func:`volume_average` for the moduli of the published procedure and
+The path: a cross-section mesh -> :func:`solve_helical_cell` (2D, full 6x6) or a slice or nested cell -> :func:`solve_periodic_cell` (3D,
+full 6x6) -> :class:`SectionStiffness`, with :func:`volume_average` for the moduli of the published procedure and
 :func:`check_cell` for what every result must satisfy.
 """
 
 from homogenize.cell_checks import Check, axial_bounds, check_cell
 from homogenize.helical_cell import INTERFACES, HelicalCell, solve_helical_cell
-from homogenize.homogenization import Homogenization, homogenize_cable, slice_stiffness
+from homogenize.homogenization import Homogenization, homogenize_cable, slice_stiffness, strand_stiffness
 from homogenize.periodic_cell import PeriodicCell, solve_periodic_cell
 from homogenize.section_stiffness import ORDER, SectionInertia, SectionStiffness, pitch_average
 from homogenize.stiffness_bounds import LooseStiffness, StiffnessRange, allowed_stiffness, loose_stiffness
+from homogenize.two_stage import TwoStage, two_stage
 from homogenize.volume_average import VolumeAverage, volume_average
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "SectionInertia",
     "SectionStiffness",
     "StiffnessRange",
+    "TwoStage",
     "VolumeAverage",
     "allowed_stiffness",
     "axial_bounds",
@@ -34,5 +36,7 @@ __all__ = [
     "slice_stiffness",
     "solve_helical_cell",
     "solve_periodic_cell",
+    "strand_stiffness",
+    "two_stage",
     "volume_average",
 ]

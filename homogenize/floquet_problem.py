@@ -73,7 +73,9 @@ def solve_group(
     names = (*group.names, *shears)
     macro = macroscopic_fields(mesh.points, group.forces)
     loads = _products(K, macro)
-    parts = np.array([system.solve(name, -f, i, len(names)) for i, (name, f) in enumerate(zip(names, loads, strict=False))])
+    parts = np.array(
+        [system.solve(name, -f, i, len(names)) for i, (name, f) in enumerate(zip(names, loads, strict=False))]
+    )
     fields = macro + parts
     stiffness = fields.conj() @ _products(K, fields).T / mesh.height
     stiffness = 0.5 * (stiffness + stiffness.conj().T)
@@ -124,7 +126,7 @@ class _System:
         self.unknowns = 3 * len(free)
         tell(0.0, f"building the multigrid hierarchy for {self.unknowns} unknowns")
         reduced = reduced_matrix(K, mesh.bottom, mesh.top, self.motion)
-        self.multigrid = Multigrid(reduced, mesh.points[free])
+        self.multigrid = Multigrid(reduced, mesh.points[free], mesh.height)
         self.solutions: list[Solution] = []
 
     def solve(self, name: str, load: NDArray, number: int, total: int) -> NDArray:
@@ -134,7 +136,9 @@ class _System:
         def watch(count: int, residual: float) -> None:
             if count % 5 == 0:
                 done = min(1.0, np.log(max(residual, self.tolerance)) / np.log(self.tolerance))
-                self.tell(begin + 0.8 * done / total, f"solving {name}: residual {residual:.0e} after {count} iterations")
+                self.tell(
+                    begin + 0.8 * done / total, f"solving {name}: residual {residual:.0e} after {count} iterations"
+                )
 
         found = self.multigrid.solve(self.R.conj().T @ load, self.tolerance, self.max_iterations, watch)
         if not found.residual <= 10 * self.tolerance:

@@ -37,9 +37,7 @@ def reduction(
     return R.tocsr(), free
 
 
-def reduced_matrix(
-    K: sp.bsr_array, bottom: NDArray[np.int64], top: NDArray[np.int64], Q: NDArray
-) -> sp.bsr_array:
+def reduced_matrix(K: sp.bsr_array, bottom: NDArray[np.int64], top: NDArray[np.int64], Q: NDArray) -> sp.bsr_array:
     """R^H K R block by block, for a matrix in blocks of len(Q); equal to the product, in a fraction of its memory."""
     d, nodes = len(Q), K.shape[0] // len(Q)
     column, free = _columns(nodes, bottom, top)

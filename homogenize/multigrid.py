@@ -14,12 +14,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-STRENGTH_THRESHOLD = 0.1
-"""Of smoothed aggregation: at a contrast of 20 000 it needs a fraction of the iterations of 0 (benchmarks/cell.py)."""
-
-SMOOTHER = ("block_gauss_seidel", {"sweep": "symmetric"})
+STRENGTH_THRESHOLD = 0.05
+"""Of smoothed aggregation: at a contrast of 20 000 it needs a third of the iterations of 0 (benchmarks/cell_3d.md)."""
 COARSEST = 300
 """Unknowns that are solved directly."""
+LEVELS = 10
 
 
 @dataclass(frozen=True)
@@ -38,26 +37,15 @@ class Multigrid:
     ----------
     matrix : real symmetric or complex Hermitian, 3x3 blocks, positive semi-definite
     points : (n, 3) places of the nodes [m]
-    model : matrix from which the hierarchy is made instead, same shape; for a preconditioner of softer material
+    height : period along z [m]: nodes more than half of it apart are neighbours across the seam only, where a rigid motion
+        does not go on as the same rigid motion, so that no aggregate may hold both
     """
 
-    def __init__(self, matrix: sp.bsr_array, points: NDArray[np.float64], model: sp.bsr_array | None = None) -> None:
-        import pyamg
-
+    def __init__(self, matrix: sp.bsr_array, points: NDArray[np.float64], height: float) -> None:
         self.matrix = _with_short_indices(matrix)
-        self.hierarchy: Any = pyamg.smoothed_aggregation_solver(
-            self.matrix if model is None else _with_short_indices(model),
-            B=rigid_modes(points).astype(matrix.dtype),
-            symmetry="hermitian",
-            strength=("symmetric", {"theta": STRENGTH_THRESHOLD}),  # pyright: ignore[reportArgumentType]
-            smooth=("jacobi", {"omega": 4.0 / 3.0, "weighting": "block"}),
-            presmoother=SMOOTHER,
-            postsmoother=SMOOTHER,
-            max_coarse=COARSEST,
-            coarse_solver="pinv",
-        )
-        self.complexity = float(self.hierarchy.operator_complexity())
-        self.precondition = self.hierarchy.aspreconditioner(cycle="V")
+        levels = _levels(self.matrix, points, height)
+        self.complexity = sum(level.nnz for level, _ in levels) / levels[0][0].nnz
+        self.precondition = _cycle(levels)
 
     def solve(
         self,
@@ -71,7 +59,7 @@ class Multigrid:
         x, r = np.zeros_like(rhs), rhs.copy()
         p, rho, count, residual = np.zeros_like(rhs), 1.0, 0, 1.0
         while size > 0 and residual > tolerance and count < max_iterations:
-            z = self.precondition @ r
+            z = self.precondition(r)
             rho, last = float(np.vdot(r, z).real), rho
             if not rho > 0:  # an indefinite preconditioner or not-a-number: the caller reports how far it came
                 break
@@ -87,9 +75,71 @@ class Multigrid:
         return Solution(x, count, float(np.linalg.norm(rhs - self.matrix @ x)) / size if size > 0 else 0.0)
 
 
-def _with_short_indices(matrix: sp.bsr_array) -> sp.bsr_matrix:
-    indices, indptr = matrix.indices.astype(np.int32), matrix.indptr.astype(np.int32)
-    return sp.bsr_matrix((matrix.data, indices, indptr), shape=matrix.shape)
+def _levels(
+    matrix: sp.bsr_matrix, points: NDArray[np.float64], height: float
+) -> list[tuple[sp.bsr_matrix, sp.bsr_matrix | None]]:
+    """Matrix and prolongator of every level, None on the last."""
+    from pyamg.aggregation import fit_candidates, standard_aggregation
+    from pyamg.aggregation.smooth import jacobi_prolongation_smoother
+    from pyamg.strength import symmetric_strength_of_connection
+
+    levels: list[tuple[sp.bsr_matrix, sp.bsr_matrix | None]] = []
+    modes, z = rigid_modes(points).astype(matrix.dtype), points[:, 2]
+    while matrix.shape[0] > COARSEST and len(levels) < LEVELS:
+        strong: Any = symmetric_strength_of_connection(matrix, STRENGTH_THRESHOLD).tocoo()
+        near = np.abs(z[strong.row] - z[strong.col]) < 0.5 * height
+        strong = _with_short_indices(
+            sp.csr_matrix((strong.data[near], (strong.row[near], strong.col[near])), strong.shape)
+        )
+        aggregates = standard_aggregation(strong)[0]
+        if aggregates.shape[1] == aggregates.shape[0]:
+            break
+        z = (aggregates.T @ z) / np.maximum(1, np.asarray(aggregates.sum(axis=0)).ravel())
+        tentative, modes = fit_candidates(aggregates, modes)
+        P = jacobi_prolongation_smoother(matrix, tentative, strong, modes, omega=4.0 / 3.0, weighting="block")
+        P = _with_short_indices(P)
+        levels.append((matrix, P))
+        matrix = _with_short_indices((P.conj().T @ matrix @ P).tobsr(blocksize=(6, 6)))
+    levels.append((matrix, None))
+    return levels
+
+
+def _cycle(levels: list[tuple[sp.bsr_matrix, sp.bsr_matrix | None]]) -> Callable[[NDArray], NDArray]:
+    """One V-cycle as a function of the residual: forward block Gauss-Seidel down, backward up, so that it is symmetric.
+
+    Smoothing is in single precision, which halves its traffic; the coarsest level, singular for cells that can move freely, is solved in
+    double precision, where rounding does not hide its null vectors.
+    """
+    from pyamg.multilevel import MultilevelSolver
+    from pyamg.relaxation.smoothing import change_smoothers
+
+    kind = np.complex64 if np.iscomplexobj(levels[0][0].data) else np.float32
+    inverse = np.linalg.pinv(levels[-1][0].toarray(), rcond=1e-12, hermitian=True)
+    made = []
+    for matrix, prolongator in levels:
+        level = MultilevelSolver.Level()
+        level.A = _with_short_indices(matrix.astype(kind))
+        if prolongator is not None:
+            level.P = _with_short_indices(prolongator.astype(kind))
+            level.R = _with_short_indices(level.P.conj().T.tobsr())
+        made.append(level)
+    hierarchy: Any = MultilevelSolver(made, coarse_solver=lambda _, b: (inverse @ b).astype(kind))
+    change_smoothers(hierarchy, *[("block_gauss_seidel", {"sweep": sweep}) for sweep in ("forward", "backward")])
+    operator = hierarchy.aspreconditioner(cycle="V")
+
+    def precondition(r: NDArray) -> NDArray:
+        if len(levels) == 1:
+            return inverse @ r
+        size = np.abs(r).max()  # the cycle is linear: scaled, so that single precision holds every residual
+        return size * (operator @ (r / size).astype(kind)).astype(r.dtype)
+
+    return precondition
+
+
+def _with_short_indices(matrix: Any) -> Any:
+    """The same data as a scipy matrix with 32-bit indices, which pyamg asks for."""
+    make = sp.bsr_matrix if matrix.format == "bsr" else sp.csr_matrix
+    return make((matrix.data, matrix.indices.astype(np.int32), matrix.indptr.astype(np.int32)), shape=matrix.shape)
 
 
 def rigid_modes(points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -60,7 +60,7 @@ def solve_periodic_cell(
     mesh: Mesh,
     *,
     bending: bool = False,
-    tolerance: float = 1e-8,
+    tolerance: float = 1e-6,
     max_iterations: int = 2000,
     progress: Progress | None = None,
 ) -> PeriodicCell:
@@ -73,7 +73,7 @@ def solve_periodic_cell(
     bending : bool
         Bending and shear as well, in `section`.
     tolerance : float
-        Relative residual at which conjugate gradients stop.
+        Relative residual at which conjugate gradients stop; the error of the stiffness is of the order of its square.
     progress : callable, optional
         Called with a fraction and a sentence.
 
@@ -103,9 +103,7 @@ def solve_periodic_cell(
     for number, group in enumerate(groups):
         share = (0.1 + 0.9 * number / len(groups), 0.9 / len(groups))
         solved.append(
-            solve_group(
-                mesh, K, group, tolerance, max_iterations, lambda f, s, p=share: tell(p[0] + p[1] * f, s)
-            )
+            solve_group(mesh, K, group, tolerance, max_iterations, lambda f, s, p=share: tell(p[0] + p[1] * f, s))
         )
     tell(1.0, "done")
     solutions = [s for group in solved for s in group.solutions]
@@ -126,7 +124,9 @@ def _section(mesh: Mesh, groups: tuple[LoadGroup, ...], solved: list[SolvedGroup
     Q, F = [], np.zeros((6, 6), dtype=complex)
     for group, found in zip(groups, solved, strict=True):
         columns = np.hstack([group.forces, group.shears])
-        for basis, block in ((columns, found.compliance), (columns.conj(), found.compliance.conj()))[: 1 + group.circular]:
+        for basis, block in ((columns, found.compliance), (columns.conj(), found.compliance.conj()))[
+            : 1 + group.circular
+        ]:
             start = sum(q.shape[1] for q in Q)
             F[start : start + len(block), start : start + len(block)] = block
             Q.append(basis)

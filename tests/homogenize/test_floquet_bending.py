@@ -12,7 +12,9 @@ RATE = 0.5
 
 def lay(n, rate=RATE):
     """A stiff eccentric trace in soft rubber, drawn as a ring mesh whose inner region is stiff."""
-    return rings((0.4, 1.0), (100.0, 0.3), (1.0, 0.45), per_ring=2 * n, around=12 * n, centre=(0.3, 0.0), twist_rate=rate)
+    return rings(
+        (0.4, 1.0), (100.0, 0.3), (1.0, 0.45), per_ring=2 * n, around=12 * n, centre=(0.3, 0.0), twist_rate=rate
+    )
 
 
 def scaled(C, reference):
@@ -38,7 +40,9 @@ def test_cells_of_any_height_agree(turn):
     thickness = turn / RATE / layers
     thin = solve_periodic_cell(swept(section, thickness, 1), bending=True, tolerance=1e-11).section.C
     tall = solve_periodic_cell(swept(section, turn / RATE, layers), bending=True, tolerance=1e-11).section.C
-    np.testing.assert_allclose(scaled(tall, thin), scaled(thin, thin), atol=2e-3)  # shear: the moment varies inside a layer
+    np.testing.assert_allclose(
+        scaled(tall, thin), scaled(thin, thin), atol=2e-3
+    )  # shear: the moment varies inside a layer
     axial = np.ix_([2, 3, 4, 5], [2, 3, 4, 5])
     F, f = np.linalg.inv(tall)[axial], np.linalg.inv(thin)[axial]
     np.testing.assert_allclose(scaled(F, f), scaled(f, f), atol=1e-7)

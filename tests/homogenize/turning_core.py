@@ -37,8 +37,12 @@ def turning_core(n: int, core, tube, twist_rate: float = 0.0, height: float = 1.
     hexes = np.concatenate([flat + s for s in shift[:-1]]), np.concatenate([flat + s for s in shift[1:]])
     swept = np.hstack(hexes)
     region = np.tile(np.r_[np.zeros(len(disc.cells), int), np.ones(len(annulus), int)], layers)
-    blocks = [CellBlock("hexahedron", np.vstack([swept, ring.hexahedra]), np.r_[region, np.ones(len(ring.hexahedra), int)])]
-    blocks += [CellBlock(kind, c, np.ones(len(c), int)) for kind, c in (("pyramid", ring.pyramids), ("tetra", ring.tetrahedra))]
+    blocks = [
+        CellBlock("hexahedron", np.vstack([swept, ring.hexahedra]), np.r_[region, np.ones(len(ring.hexahedra), int)])
+    ]
+    blocks += [
+        CellBlock(kind, c, np.ones(len(c), int)) for kind, c in (("pyramid", ring.pyramids), ("tetra", ring.tetrahedra))
+    ]
     top = np.arange(stride) + stride * layers
     image = _turned(points[:stride, :2], twist_rate * height)
     _, bottom = cKDTree(image).query(points[top, :2])
