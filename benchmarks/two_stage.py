@@ -4,7 +4,8 @@ Three tables:
 
 1. every stage of the route, strands bonded and strands without friction;
 2. one core by itself, straight: rope, equivalent cylinder and layers against the three-dimensional cell of all strands;
-3. the whole cable: route, single cylinders and, with --resolved, the three-dimensional cell of all strands (about 800 000 unknowns).
+3. with --resolved, the whole cable: route and single cylinders, conductors bonded in their insulation and sliding, against the
+   three-dimensional cell of all strands (about 800 000 unknowns).
 
 Run: python -m benchmarks.two_stage [--resolved] (a minute; with --resolved half an hour and 8 GB). The last results are in
 docs/section-stiffness.md.
@@ -92,8 +93,10 @@ def main() -> None:
     solved = solve_periodic_cell(cell, tolerance=1e-6)
     print(f"\nThe whole cable, all bonded\n{HEAD}")
     print(line(resolved_stage("cable", f"all strands, {solved.unknowns} unknowns", cable.area, solved)))
-    print("two-stage less all strands:      ", difference(results["bonded"].section, solved))
-    print("single cylinders less all strands:", difference(results["bonded"].single_cylinder, solved))
+    sliding = two_stage(cable, "bonded", "frictionless")
+    for held, result in (("bonded", results["bonded"]), ("sliding", sliding)):
+        print(f"two-stage, conductors {held}:", difference(result.section, solved))
+        print(f"single cylinders, {held}:", difference(result.single_cylinder, solved))
 
 
 if __name__ == "__main__":

@@ -122,7 +122,7 @@ def off_axis(rho, phi):
 def test_correction_finds_the_cable_with_a_slacker_core():
     """A laid core of two materials, with the EA and 0.475 of the EI of one, in soft rubber: solved, and by correcting the solid core.
 
-    The correction is an upper bound, here of C without release of shear; it is off by less than a tenth of what it takes away.
+    The correction is an upper bound, here above by 1 % of what it takes away; 1 / cos of the lay of 10 degrees counts for 3 %.
     """
     tau, rubber = TURN, (1.0, 0.4)
     solid, graded = (
@@ -136,7 +136,7 @@ def test_correction_finds_the_cable_with_a_slacker_core():
     drawn, true = (pitch_average(cell.stiffness).EI_x for cell in (solid, graded))
     found = pitch_average(SectionStiffness(corrected, solid.stiffness.area)).EI_x
     assert true < 0.7 * drawn
-    assert true < found < true + 0.1 * (drawn - true)
+    assert true < found < true + 0.025 * (drawn - true)
 
 
 @pytest.fixture(scope="module")
