@@ -84,7 +84,7 @@ def strand_modulus(strand: Strand, wire_modulus: float = WIRE_MODULUS) -> float:
     --------
     >>> power = Strand("power", 0.49e-3, (3, 9, 15), 40e-3, "Z", 8900.0, 80e9, 0.34)
     >>> round(strand_modulus(power) / power.E, 3)
-    0.965
+    0.959
     """
     cubes = np.dot(strand.layers, [np.cos(lay_angle(radius, strand.lay)) ** 3 for radius in strand.radii])
     return float(wire_modulus * np.pi * strand.wire_diameter**2 / 4 * cubes / strand.area)
