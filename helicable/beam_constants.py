@@ -75,7 +75,7 @@ def _from_file(path: Path) -> SectionStiffness:
         C, area = np.full((6, 6), np.nan), 0.0
     if not np.isfinite(C).all():
         raise SpecError(
-            f"{path} does not hold a complete 6x6 section.C and an area (--method cell leaves entries empty); "
+            f"{path} does not hold a complete 6x6 section.C and an area (a cell that was not asked for bending leaves entries empty); "
             "write it with helicable homogenize CABLE --json."
         )
     return SectionStiffness(C, area)

@@ -1,7 +1,7 @@
 """From a meshed cable to the stiffness of its beam section.
 
-The path: a cross-section mesh -> :func:`solve_helical_cell` (2D, full 6x6) or a slice -> :func:`solve_periodic_cell` (3D, tension and
-torsion) -> :class:`SectionStiffness`, with :func:`volume_average` for the moduli of the published procedure and
+The path: a cross-section mesh -> :func:`solve_helical_cell` (2D, full 6x6) or a slice or nested cell -> :func:`solve_periodic_cell` (3D,
+full 6x6) -> :class:`SectionStiffness`, with :func:`volume_average` for the moduli of the published procedure and
 :func:`check_cell` for what every result must satisfy.
 """
 
@@ -11,13 +11,14 @@ from homogenize.elastic_interface import Elastic
 from homogenize.friction_loop import FrictionLoop, friction_loop
 from homogenize.grip_pressure import grip_per_tension
 from homogenize.helical_cell import INTERFACES, HelicalCell, solve_helical_cell
-from homogenize.homogenization import Homogenization, homogenize_cable, slice_stiffness
+from homogenize.homogenization import Homogenization, homogenize_cable, slice_stiffness, strand_stiffness
 from homogenize.interface_choice import Interfaces
 from homogenize.periodic_cell import PeriodicCell, solve_periodic_cell
 from homogenize.rubbing_section import axial_friction, bending_friction
 from homogenize.section_stiffness import ORDER, SectionInertia, SectionStiffness, pitch_average
 from homogenize.sliding_interface import Frictionless
 from homogenize.stiffness_bounds import LooseStiffness, StiffnessRange, allowed_stiffness, loose_stiffness
+from homogenize.two_stage import TwoStage, two_stage
 from homogenize.volume_average import VolumeAverage, volume_average
 
 __all__ = [
@@ -36,6 +37,7 @@ __all__ = [
     "SectionInertia",
     "SectionStiffness",
     "StiffnessRange",
+    "TwoStage",
     "VolumeAverage",
     "allowed_stiffness",
     "axial_bounds",
@@ -50,5 +52,7 @@ __all__ = [
     "slice_stiffness",
     "solve_helical_cell",
     "solve_periodic_cell",
+    "strand_stiffness",
+    "two_stage",
     "volume_average",
 ]

@@ -78,7 +78,7 @@ class HelicalCell:
 
     def stress(self, section_forces: FloatArray) -> FloatArray:
         """Local stress [Pa], shape (e, q, 6), order xx yy zz yz xz xy."""
-        return np.matmul(self.field.elasticity[:, None], self.strain(section_forces)[..., None])[..., 0]
+        return np.matmul(self.field.point_elasticity, self.strain(section_forces)[..., None])[..., 0]
 
     def shear_strain(self) -> FloatArray:
         """Local strain, shape (e, q, 6, 2), per unit mean shear stress xz and yz [1/Pa]."""

@@ -25,7 +25,8 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from geometry.cell_mesh import CrossSectionMesh
-from homogenize.element_basis import element_basis
+from homogenize.element_basis import ElementBasis, element_basis
+from homogenize.transverse_isotropy import TransverseIsotropy
 
 FloatArray = NDArray[np.float64]
 
@@ -42,8 +43,9 @@ class SectionField:
     gradient : (2, k, e, q) their derivatives by X and Y [1/m]
     weight : (e, q) quadrature weight times area [m^2]
     position : (2, e, q) quadrature points [m]
-    elasticity : (e, 6, 6) stiffness of the material [Pa]
+    elasticity : (e, 6, 6) stiffness of the material [Pa]; where the fibres of a material turn, its mean over the element
     twist_rate : tau_0 [rad/m]
+    turning_elasticity : (e, q, 6, 6), with the fibres as they lie at each point; None where all materials are isotropic
     """
 
     nodes: FloatArray
@@ -55,6 +57,12 @@ class SectionField:
     elasticity: FloatArray
     region_of: NDArray[np.int64]
     twist_rate: float
+    turning_elasticity: FloatArray | None = None
+
+    @property
+    def point_elasticity(self) -> FloatArray:
+        """Stiffness at the quadrature points, shape (e, q, 6, 6), or (e, 1, 6, 6) where it is the same in all of an element."""
+        return self.elasticity[:, None] if self.turning_elasticity is None else self.turning_elasticity
 
     @property
     def unknowns(self) -> int:
@@ -132,7 +140,10 @@ def section_field(mesh: CrossSectionMesh) -> SectionField:
     basis = element_basis(
         mesh.points, mesh.cells, mesh.cell_kind, lambda e: f"an element of {mesh.regions[mesh.region_of[e]].name}"
     )
-    by_region = np.array([region.material.elasticity() for region in mesh.regions])
+    C = np.array([region.material.elasticity() for region in mesh.regions])[mesh.region_of]
+    turning = _turning(mesh, basis, C)
+    if turning is not None:
+        C = np.einsum("eq,eqij->eij", basis.weight / basis.weight.sum(axis=1, keepdims=True), turning)
     return SectionField(
         nodes=basis.nodes,
         cells=basis.cells,
@@ -140,17 +151,32 @@ def section_field(mesh: CrossSectionMesh) -> SectionField:
         gradient=basis.gradient,
         weight=basis.weight,
         position=basis.position,
-        elasticity=by_region[mesh.region_of],
+        elasticity=C,
         region_of=mesh.region_of,
         twist_rate=mesh.twist_rate,
+        turning_elasticity=turning,
     )
+
+
+def _turning(mesh: CrossSectionMesh, basis: ElementBasis, C: FloatArray) -> FloatArray | None:
+    """Stiffness (e, q, 6, 6) in rotating components where some material has helical fibres, from that of each element (e, 6, 6)."""
+    fibrous = [n for n, region in enumerate(mesh.regions) if isinstance(region.material, TransverseIsotropy)]
+    if not fibrous:
+        return None
+    turning = np.repeat(C[:, None], basis.weight.shape[1], axis=1)
+    for number in fibrous:
+        material, inside = mesh.regions[number].material, mesh.region_of == number
+        assert isinstance(material, TransverseIsotropy)
+        X, Y = basis.position[:, inside]
+        turning[inside] = material.elasticity_at(X, Y, mesh.twist_rate)
+    return turning
 
 
 def _gram(field: SectionField, left: FloatArray, right: FloatArray) -> sp.csr_array:
     """Assembled int left^T C right."""
     e, q = field.weight.shape
     k3 = right.shape[-1]
-    weighted = field.weight[:, :, None, None] * np.matmul(field.elasticity[:, None], right)
+    weighted = field.weight[:, :, None, None] * np.matmul(field.point_elasticity, right)
     left = np.broadcast_to(left, (e, *left.shape[1:]))
     blocks = np.matmul(left.reshape(e, q * 6, k3).transpose(0, 2, 1), weighted.reshape(e, q * 6, k3))
     dofs = field.element_dofs

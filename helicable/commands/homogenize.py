@@ -15,6 +15,7 @@ from geometry.units import read_quantity
 from helicable.options import CableArgument, JsonOption, OutOption, SizeOption
 from helicable.published import modulus_rows
 from helicable.screen import engineering, folder, progress, say, table, write_json
+from helicable.two_stage_report import show_two_stage, two_stage_record
 from homogenize import (
     INTERFACES,
     ORDER,
@@ -23,17 +24,29 @@ from homogenize import (
     SectionInertia,
     homogenize_cable,
     slice_stiffness,
+    strand_stiffness,
+    two_stage,
 )
 from homogenize.section_export import FORMATS, ExportedSection, dropped, export_format, export_section
 
-METHODS = ("helical", "cell")
+METHODS = ("helical", "cell", "two-stage")
+LEVELS = ("section", "strand")
 
 
 def homogenize(
     cable: CableArgument,
     method: Annotated[
-        str, typer.Option(help="`helical`: 2D cell, the whole 6x6; `cell`: 3D periodic slice, tension and torsion.")
+        str,
+        typer.Option(
+            help="`helical`: 2D cell of the cross-section; `cell`: 3D periodic cell; `two-stage`: strands first."
+        ),
     ] = "helical",
+    level: Annotated[
+        str, typer.Option(help="With `--method cell`: `section`, a slice; `strand`, all strands one by one (minutes).")
+    ] = "section",
+    strands: Annotated[
+        str, typer.Option(help="With `--method two-stage`: strands of a conductor `bonded` or `frictionless`.")
+    ] = "bonded",
     interface: Annotated[
         str, typer.Option(help="`bonded`; or `frictionless`: conductors slide, without opening.")
     ] = "bonded",
@@ -53,7 +66,7 @@ def homogenize(
 
     Example: `helicable homogenize mcpt-1.9-3.3-3x35 --json section.json`
     """
-    _check_choices(method, interface)
+    _check_choices(method, interface, level)
     _check_export(method, export, format)
     made = read_cable(cable)
     element = None if size is None else read_quantity(size, "m", "--size")
@@ -61,9 +74,19 @@ def homogenize(
     if method == "cell":
         with progress("3D periodic cell") as tell:
             start = time.perf_counter()
-            cell = slice_stiffness(made, size=element, progress=tell)
+            if level == "strand":
+                cell = strand_stiffness(made, size=element, progress=tell)
+            else:
+                cell = slice_stiffness(made, size=element, bending=True, progress=tell)
         show_slice(made, cell)
-        write_json(json, slice_record(made, cell, time.perf_counter() - start))
+        write_json(json, slice_record(made, cell, time.perf_counter() - start, level))
+        return
+    if method == "two-stage":
+        with progress("two-stage route") as tell:
+            start = time.perf_counter()
+            staged = two_stage(made, strands, interface, element, progress=tell)
+        show_two_stage(staged)
+        write_json(json, two_stage_record(staged, _head(made, staged.section.area), time.perf_counter() - start))
         return
     with progress("2D helical cell") as tell:
         result = homogenize_cable(made, interface=interface, size=element, progress=tell)
@@ -87,13 +110,17 @@ def homogenize(
         )
 
 
-def _check_choices(method: str, interface: str) -> None:
+def _check_choices(method: str, interface: str, level: str) -> None:
     if method not in METHODS:
-        raise SpecError(f'--method "{method}" is not known; choose helical or cell.')
+        raise SpecError(f'--method "{method}" is not known; choose {", ".join(METHODS)}.')
     if interface not in INTERFACES:
         raise SpecError(f'--interface "{interface}" is not known; choose {" or ".join(INTERFACES)}.')
     if method == "cell" and interface != "bonded":
-        raise SpecError("the 3D slice bonds all parts; use --method helical for --interface frictionless.")
+        raise SpecError("the 3D cell bonds all parts; use --method helical for --interface frictionless.")
+    if level not in LEVELS:
+        raise SpecError(f'--level "{level}" is not known; choose {" or ".join(LEVELS)}.')
+    if level == "strand" and method != "cell":
+        raise SpecError("the strands one by one need the 3D cell: add --method cell.")
 
 
 def _check_export(method: str, export: Path | None, format: str | None) -> None:
@@ -101,8 +128,8 @@ def _check_export(method: str, export: Path | None, format: str | None) -> None:
         raise SpecError("--format says how --export FILE is written; name the file too.")
     if export is not None:
         export_format(export, format)
-        if method == "cell":
-            raise SpecError("the 3D slice has no bending and shear; export the result of --method helical.")
+        if method != "helical":
+            raise SpecError("--export writes the 6x6 of --method helical; leave the other method out.")
 
 
 def exported_section(result: Homogenization) -> ExportedSection:
@@ -150,7 +177,11 @@ def show_constants(result: Homogenization, phase: float = 0.0) -> None:
         right=(1,),
     )
     G_yoz, G_xoz = result.average.shear_moduli_at(phase)
-    say(f"At phase {np.degrees(phase):.0f} deg: G_yoz {engineering(G_yoz, 'Pa')}, G_xoz {engineering(G_xoz, 'Pa')}.\n")
+    at = result.phase_zero.turned(phase)
+    say(
+        f"At phase {np.degrees(phase):.0f} deg: G_yoz {engineering(G_yoz, 'Pa')}, G_xoz {engineering(G_xoz, 'Pa')}, "
+        f"EI_x {engineering(at.EI_x, 'N m2')}, EI_y {engineering(at.EI_y, 'N m2')}.\n"
+    )
     published = modulus_rows(result)
     if published:
         rows = [
@@ -177,14 +208,23 @@ def show_slice(cable: Cable, cell: PeriodicCell) -> None:
         ("stretch-twist coupling", engineering(coupling, "N m")),
         ("GJ", engineering(GJ, "N m2")),
     ]
-    table(f"{cable.name}: 3D periodic slice, all parts bonded", ("quantity", "value"), rows, right=(1,))
-    say(f"{cell.unknowns} unknowns, {cell.iterations[0]} and {cell.iterations[1]} iterations of conjugate gradients")
+    if cell.section is not None:
+        rows += [
+            ("EI_x", engineering(cell.section.EI_x, "N m2")),
+            ("EI_y", engineering(cell.section.EI_y, "N m2")),
+            ("GA_x", engineering(cell.section.GA_x, "N")),
+            ("GA_y", engineering(cell.section.GA_y, "N")),
+        ]
+    table(f"{cable.name}: 3D periodic cell, all parts bonded", ("quantity", "value"), rows, right=(1,))
+    counts = ", ".join(f"{name} {n}" for name, n in zip(cell.loads, cell.iterations, strict=True))
+    say(f"{cell.unknowns} unknowns; iterations of conjugate gradients: {counts}")
 
 
 def homogenization_record(result: Homogenization, phase: float = 0.0) -> dict[str, Any]:
     """The JSON of `helicable homogenize`, method helical."""
     s, a = result.section, result.average
     G_yoz, G_xoz = a.shear_moduli_at(phase)
+    at = result.phase_zero.turned(phase)
     return {
         **_head(result.cable, s.area),
         "section": {
@@ -204,7 +244,7 @@ def homogenization_record(result: Homogenization, phase: float = 0.0) -> dict[st
         "E_free_twist": a.E_free_twist,
         "G_yoz": a.G_yoz,
         "G_xoz": a.G_xoz,
-        "at_phase": {"phase": phase, "G_yoz": G_yoz, "G_xoz": G_xoz, "C": result.phase_zero.turned(phase).C},
+        "at_phase": {"phase": phase, "G_yoz": G_yoz, "G_xoz": G_xoz, "EI_x": at.EI_x, "EI_y": at.EI_y, "C": at.C},
         "bounds": {"EA_lower": result.bounds[0], "EA_upper": result.bounds[1]},
         "checks": [{"name": c.name, "holds": c.holds, "found": c.sentence} for c in result.checks],
         "published": {r.quantity: r.published for r in modulus_rows(result)},
@@ -219,24 +259,30 @@ def homogenization_record(result: Homogenization, phase: float = 0.0) -> dict[st
     }
 
 
-def slice_record(cable: Cable, cell: PeriodicCell, seconds: float) -> dict[str, Any]:
-    """The JSON of `helicable homogenize --method cell`: tension and torsion, the other entries null."""
+def slice_record(cable: Cable, cell: PeriodicCell, seconds: float, level: str = "section") -> dict[str, Any]:
+    """The JSON of `helicable homogenize --method cell`; what the cell was not asked for is null."""
     C: list[list[float | None]] = [[None] * 6 for _ in range(6)]
     (EA, coupling), (_, GJ) = cell.stiffness
     C[2][2], C[2][5], C[5][2], C[5][5] = float(EA), float(coupling), float(coupling), float(GJ)
     free = EA - coupling**2 / GJ
-    nothing = dict.fromkeys(("EI_x", "EI_y", "GA_x", "GA_y"))
-    section = {
-        "order": list(ORDER),
-        "C": C,
-        "EA_blocked_twist": EA,
-        "EA_free_twist": free,
-        "GJ": GJ,
-        "coupling": coupling,
-    }
+    bending: dict[str, float | None] = dict.fromkeys(("EI_x", "EI_y", "GA_x", "GA_y"))
+    notes = ["E refers to the area of the cable; formula (3) for G and bounds come from --method helical"]
+    if cell.section is not None:
+        C = cell.section.C.tolist()
+        bending = {name: getattr(cell.section, name) for name in bending}
+    else:
+        notes.append("bending and shear were not computed on this cell")
     return {
         **_head(cable, cable.area),
-        "section": {**section, **nothing},
+        "section": {
+            "order": list(ORDER),
+            "C": C,
+            "EA_blocked_twist": EA,
+            "EA_free_twist": free,
+            "GJ": GJ,
+            "coupling": coupling,
+            **bending,
+        },
         "E_blocked_twist": EA / cable.area,
         "E_free_twist": free / cable.area,
         "G_yoz": None,
@@ -244,10 +290,11 @@ def slice_record(cable: Cable, cell: PeriodicCell, seconds: float) -> dict[str, 
         "bounds": {"EA_lower": None, "EA_upper": None},
         "mesh": {"unknowns": cell.unknowns, "elements": None},
         "method": "cell",
+        "level": level,
         "interface": "bonded",
         "iterations": list(cell.iterations),
         "seconds": seconds,
-        "notes": ["the 3D slice serves tension and torsion; bending, shear and bounds come from --method helical"],
+        "notes": notes,
     }
 
 

@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from helicable.main import main
@@ -83,13 +84,17 @@ def test_sliding_conductors_are_a_choice(homogenized, tmp_path):
     assert all(check["holds"] for check in sliding["checks"])
 
 
-def test_the_slice_writes_null_where_it_does_not_compute(tmp_path, capsys):
+def test_the_slice_gives_the_6x6_and_null_where_it_does_not_compute(tmp_path, capsys):
     file = tmp_path / "cell.json"
     assert main(["homogenize", CABLE, "--method", "cell", "--size", "6 mm", "--json", str(file)]) == 0
     record = json.loads(file.read_text())
-    assert record["section"]["C"][0][0] is None
-    assert record["section"]["C"][2][5] == record["section"]["C"][5][2] == record["section"]["coupling"]
+    assert np.linalg.eigvalsh(record["section"]["C"]).min() > 0
+    assert record["section"]["EI_x"] == pytest.approx(70.4, rel=0.05)  # the 2D cell
+    assert record["section"]["C"][2][5] == pytest.approx(record["section"]["coupling"], rel=1e-9)
+    assert record["section"]["C"][2][5] == record["section"]["C"][5][2]
     assert record["G_yoz"] is None
+    record["section"]["C"][0][0] = None
+    file.write_text(json.dumps(record))
     assert main(["tow", "intelligent-horizontal", "--constants", str(file)]) == 2
     assert "complete 6x6" in capsys.readouterr().err
 
@@ -137,6 +142,8 @@ BAD = [
     (["homogenize", CABLE, "--method", "magic"], "magic"),
     (["homogenize", CABLE, "--interface", "glued"], "frictionless"),
     (["homogenize", CABLE, "--method", "cell", "--interface", "frictionless"], "helical"),
+    (["homogenize", CABLE, "--method", "cell", "--level", "wire"], "section or strand"),
+    (["homogenize", CABLE, "--level", "strand"], "--method cell"),
     (["mesh", CABLE, "--elements", "0"], "element"),
     (["mesh", CABLE, "--elements", "1000000000"], "700 GB of memory; at most 2e+07 are made: try fewer"),
     (["tow"], "--list"),
@@ -178,7 +185,6 @@ def test_compare_reports_each_experiment(tmp_path, capsys):
 
 
 def write_campaign(folder):
-    import numpy as np
 
     folder.mkdir()
     (folder / "campaign.toml").write_text('title = "test"\n[section]\nEI = "90 N m^2"\n[sensors]\nmoment = "0.2 N m"\n')
