@@ -95,7 +95,7 @@ def mesh(
         length = None if height is None else read_quantity(height, "m", "--height")
         period: CommonPeriod | None = None
         if deep:
-            tolerance = read_quantity(lay_tolerance, "rad", "--lay-tolerance")
+            tolerance = _angle(lay_tolerance)
             period = cell_of(made, tolerance=tolerance)
             cell: SliceMesh | SweptCell = nested_cell(
                 made, elements=elements, height=length, lay_tolerance=tolerance, progress=tell
@@ -127,6 +127,15 @@ def _is_deep(cable: Cable, level: str | None) -> bool:
     if level == "strand" and not stranded:
         raise SpecError(f"--level: no conductor of {cable.name} is described strand by strand; leave the option out.")
     return stranded and level != "conductor"
+
+
+def _angle(text: str) -> float:
+    """The tolerance [rad]; a bare number is refused, because it could be meant in degrees."""
+    try:
+        float(text)
+    except ValueError:
+        return read_quantity(text, "rad", "--lay-tolerance")
+    raise SpecError(f'--lay-tolerance: the number {text} has no unit; write it with its unit, such as "{text} deg".')
 
 
 def _parted(cell: SliceMesh | SweptCell, words: str | None) -> DoubledMesh | None:

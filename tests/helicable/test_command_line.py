@@ -124,6 +124,19 @@ def test_mesh_writes_the_file_and_the_contracts_keys(tmp_path):
     assert file.stat().st_size > 10_000
 
 
+def test_mesh_parts_interfaces_and_draws(tmp_path, capsys):
+    """Doubled nodes along a chosen interface are told on the screen and in the record, and the pictures are written."""
+    record = tmp_path / "mesh.json"
+    arguments = ["mesh", "example-three-core", "--elements", "100", "--out", str(tmp_path / "cell.msh")]
+    arguments += ["--separate", "conductor-insulation", "--pictures", str(tmp_path), "--json", str(record)]
+    assert main(arguments) == 0
+    found = json.loads(record.read_text())
+    assert list(found["separated"]) == ["conductor-insulation"]
+    assert found["separated"]["conductor-insulation"] == pytest.approx(found["interfaces"]["conductor-insulation"])
+    assert (tmp_path / "cell.png").stat().st_size > 10_000 and (tmp_path / "quality.png").stat().st_size > 10_000
+    assert "Quality" in capsys.readouterr().out
+
+
 def test_mesh_writes_solids_for_cad(tmp_path):
     """A name that ends in .brep asks for swept solids; their volumes are those of Pappus."""
     file, record = tmp_path / "cable.brep", tmp_path / "solids.json"

@@ -69,4 +69,4 @@ def test_data_sheet_is_compared(tmp_path, capsys):
 def test_several_lays_are_refused_by_the_2d_cell_in_one_sentence(capsys):
     assert main(["homogenize", "spiral-strand-120"]) == 2
     said = capsys.readouterr().err
-    assert "layers of several lays" in said and "common period" in said and "Traceback" not in said
+    assert "layers of several lays" in said and "one layer at a time" in said and "Traceback" not in said
