@@ -1,4 +1,4 @@
-"""A clamped slice for CalculiX: input deck, run, reaction. Peer of the three-dimensional cell (GPL program, called as a separate process)."""
+"""A clamped slice for CalculiX: input deck, run, reaction. Peer of the three-dimensional cell, called as a separate process."""
 
 from __future__ import annotations
 

@@ -46,6 +46,12 @@ def with_materials(mesh: SliceMesh, nu: float, contrast: float) -> SliceMesh:
     return replace(mesh, regions=regions)
 
 
+def without_lateral_strain(mesh: SliceMesh) -> SliceMesh:
+    """Poisson's ratio 0 in all parts: mean dilatation then changes nothing, and both programs have the same element."""
+    regions = tuple(replace(r, material=replace(r.material, nu=0.0)) for r in mesh.regions)
+    return replace(mesh, regions=regions)
+
+
 def assembly() -> None:
     """Table 1."""
     print("\n1. Assembly\n\n| bricks | unknowns | wall s | microseconds a brick |\n|---|---|---|---|")
@@ -68,9 +74,8 @@ def heights() -> None:
 
 def contrasts() -> None:
     """Table 3."""
-    print(
-        "\n3. Contrast and Poisson's ratio, one layer\n\n| case | unknowns | iterations | complexity | wall s | CPU s |\n|---|---|---|---|---|---|"
-    )
+    print("\n3. Contrast and Poisson's ratio, one layer")
+    print("\n| case | unknowns | iterations | complexity | wall s | CPU s |\n|---|---|---|---|---|---|")
     mesh = slice_of(1)
     for contrast in (1.0, 100.0, 20000.0):
         report(f"contrast {contrast:g}, nu 0.45", with_materials(mesh, 0.45, contrast))
@@ -112,8 +117,8 @@ def peer() -> None:
         + "|"
     )
     mesh = slice_of(3)
-    for nu in (0.3, 0.45, 0.49):
-        case = with_materials(mesh, nu, 16000.0)
+    for nu in (0.0, 0.3, 0.49):
+        case = with_materials(mesh, nu, 16000.0) if nu else without_lateral_strain(mesh)
         start = time.perf_counter()
         ours = clamped_force(case, 1e-3)
         seconds = time.perf_counter() - start

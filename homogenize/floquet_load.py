@@ -6,8 +6,9 @@ The circular moments a = (1, +-i, 0) / sqrt 2 are eigenvectors, Q a = exp(-+i al
 
 .. math::  u = u_{macro} + v, \qquad v(Q x + H e_z) = s\, Q\, v(x), \qquad s = e^{\pm i \alpha} ,
 
-with the macroscopic field of the curvature a: one complex problem on one cell (Floquet's theorem), its conjugate needs none. When alpha is a
-multiple of pi the factor is +1 or -1 and the moments about x and y are two real loads; at s = 1 they may couple with stretch and twist.
+with the macroscopic field of the curvature a: one complex problem on one cell (Floquet's theorem), its conjugate needs none. When
+alpha is a multiple of pi the factor is +1 or -1 and the moments about x and y are two real loads; at s = 1 they may couple with stretch and
+twist.
 
 A shear force t makes the moment vary, M' = -e_z x t. Its field gains H times the field of the moment -e_z x t in every cell (the
 generalised eigenvector), which the second-order macroscopic fields, of strains that grow with z, carry.

@@ -39,7 +39,8 @@ def reduction(
 
 def reduced_matrix(K: sp.bsr_array, bottom: NDArray[np.int64], top: NDArray[np.int64], Q: NDArray) -> sp.bsr_array:
     """R^H K R block by block, for a matrix in blocks of len(Q); equal to the product, in a fraction of its memory."""
-    d, nodes = len(Q), K.shape[0] // len(Q)
+    d = len(Q)
+    nodes = len(K.indptr) - 1
     column, free = _columns(nodes, bottom, top)
     rows, columns = np.repeat(np.arange(nodes), np.diff(K.indptr)), K.indices
     data = K.data.astype(np.result_type(K.dtype, Q.dtype))

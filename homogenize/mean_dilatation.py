@@ -132,7 +132,7 @@ def _block_pattern(
     new[1:] = table.indices[1:] != table.indices[:-1]
     new[table.indptr[:-1][np.diff(table.indptr) > 0]] = True
     slot = np.empty(pairs, dtype=np.int32)
-    slot[table.data] = np.cumsum(new, dtype=np.int32) - 1
+    slot[np.asarray(table.data, dtype=np.int64)] = np.cumsum(new, dtype=np.int32) - 1
     indptr = np.concatenate([[0], np.cumsum(new)])[table.indptr].astype(np.int32)
     return indptr, table.indices[new].astype(np.int32), slot.reshape(-1, 8, 8)
 

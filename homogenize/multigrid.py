@@ -83,15 +83,17 @@ def _levels(
     from pyamg.aggregation.smooth import jacobi_prolongation_smoother
     from pyamg.strength import symmetric_strength_of_connection
 
+    connection: Any = symmetric_strength_of_connection
+    aggregation: Any = standard_aggregation
     levels: list[tuple[sp.bsr_matrix, sp.bsr_matrix | None]] = []
     modes, z = rigid_modes(points).astype(matrix.dtype), points[:, 2]
-    while matrix.shape[0] > COARSEST and len(levels) < LEVELS:
-        strong: Any = symmetric_strength_of_connection(matrix, STRENGTH_THRESHOLD).tocoo()
+    while len(modes) > COARSEST and len(levels) < LEVELS:
+        strong: Any = connection(matrix, STRENGTH_THRESHOLD).tocoo()
         near = np.abs(z[strong.row] - z[strong.col]) < 0.5 * height
         strong = _with_short_indices(
             sp.csr_matrix((strong.data[near], (strong.row[near], strong.col[near])), strong.shape)
         )
-        aggregates = standard_aggregation(strong)[0]
+        aggregates = aggregation(strong)[0]
         if aggregates.shape[1] == aggregates.shape[0]:
             break
         z = (aggregates.T @ z) / np.maximum(1, np.asarray(aggregates.sum(axis=0)).ravel())
@@ -117,13 +119,14 @@ def _cycle(levels: list[tuple[sp.bsr_matrix, sp.bsr_matrix | None]]) -> Callable
     inverse = np.linalg.pinv(levels[-1][0].toarray(), rcond=1e-12, hermitian=True)
     made = []
     for matrix, prolongator in levels:
-        level = MultilevelSolver.Level()
+        level: Any = MultilevelSolver.Level()
         level.A = _with_short_indices(matrix.astype(kind))
         if prolongator is not None:
             level.P = _with_short_indices(prolongator.astype(kind))
             level.R = _with_short_indices(level.P.conj().T.tobsr())
         made.append(level)
-    hierarchy: Any = MultilevelSolver(made, coarse_solver=lambda _, b: (inverse @ b).astype(kind))
+    make: Any = MultilevelSolver
+    hierarchy = make(made, coarse_solver=lambda _, b: (inverse @ b).astype(kind))
     change_smoothers(hierarchy, *[("block_gauss_seidel", {"sweep": sweep}) for sweep in ("forward", "backward")])
     operator = hierarchy.aspreconditioner(cycle="V")
 
