@@ -14,6 +14,7 @@ import numpy as np
 from geometry import Cable, cross_section_mesh
 from helicable.screen import ProgressCallback
 from homogenize import FrictionLoop, Interfaces, axial_friction, bending_friction, friction_loop, grip_per_tension
+from homogenize.section_field import FloatArray
 
 QUARTERS = 4
 
@@ -59,6 +60,7 @@ class LoopResult:
     cable: Cable
     settings: Settings
     loop: FrictionLoop
+    grip: FloatArray
     quarter: int
     elements: int
     seconds: float
@@ -105,6 +107,12 @@ class LoopResult:
         return self.heat / (2 * np.pi * self.peak * self.settings.amplitude)
 
     @property
+    def mean_grip(self) -> float:
+        """Pressure on the rubbing surface, on the mean [Pa]."""
+        surface = self.loop.section.surface
+        return float(self.grip @ surface / surface.sum())
+
+    @property
     def slid(self) -> float:
         """Share of the rubbing surface that slid at least once."""
         surface = self.loop.section.surface
@@ -137,4 +145,4 @@ def run_loop(cable: Cable, s: Settings, tell: ProgressCallback) -> LoopResult:
     )
     found = friction_loop(section, path, grip, progress=lambda f, sentence: tell(0.5 + 0.5 * f, sentence))
     tell(1.0, "loop closed")
-    return LoopResult(cable, s, found, quarter, len(mesh.cells), time.perf_counter() - start)
+    return LoopResult(cable, s, found, grip, quarter, len(mesh.cells), time.perf_counter() - start)

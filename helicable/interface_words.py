@@ -60,7 +60,9 @@ def read_laws(text: str, where: str = "--interface", friction: float | None = No
     for entry in text.split(","):
         name, equals, law = (part.strip() for part in entry.partition("="))
         if not name:
-            raise SpecError(f'{where} "{text}" has a place without the name of a pair; write for instance "core-filler".')
+            raise SpecError(
+                f'{where} "{text}" has a place without the name of a pair; write for instance "core-filler".'
+            )
         if name in laws:
             raise SpecError(f'{where} names "{name}" twice; give it one law.')
         if not equals and friction is None:

@@ -119,6 +119,11 @@ def loop_notes(result: LoopResult) -> list[str]:
         "the grip stays as it is, along the cable and during the loop; parts do not open; the strain is prescribed",
         _others(s),
     ]
+    if s.tension:
+        open_share = float(result.loop.section.surface @ (result.grip == 0) / result.loop.section.surface.sum())
+        notes.append(
+            f"grip of the tension: {engineering(result.mean_grip, 'Pa')} on the mean, none on {100 * open_share:.0f} % of the surface"
+        )
     gap = K["bonded"] - K["frictionless"]
     if result.slid == 0:
         notes.append("nothing slid: the section stays bonded; try a larger amplitude or a smaller grip")
@@ -156,7 +161,7 @@ def show_loop(result: LoopResult) -> None:
         ),
         ("area of the loop", _energy(result.area), "work of a cycle per length"),
         ("heat of the loop", _energy(result.heat), "friction times slip, per length"),
-        ("damping ratio", f"{result.damping_ratio:.4f}", "heat / (2 pi force strain), equivalent viscous"),
+        ("damping ratio", f"{result.damping_ratio:.3g}", "heat / (2 pi force strain), equivalent viscous"),
     ]
     title = f"{result.cable.name}: {s.load} loop, {s.interfaces.describe()}, {_grip_words(s)}"
     table(title, ("quantity", "value", "definition"), rows, right=(1,))
@@ -187,6 +192,7 @@ def loop_record(result: LoopResult) -> dict[str, Any]:
         "interface": s.interfaces.describe(),
         "grip": s.grip,
         "tension": s.tension,
+        "mean_grip": result.mean_grip,
         "amplitude": s.amplitude,
         "cycles": s.cycles,
         "free_twist": s.free_twist,
@@ -245,5 +251,5 @@ def _draw(result: LoopResult, path: Path) -> Path:
         strain=result.strain,
         start=result.start,
         title=f"{result.cable.name}: {s.load} loop",
-        note=f"{s.interfaces.describe()}, {_grip_words(s)}; heat {_energy(result.heat)} a cycle, damping ratio {result.damping_ratio:.3f}",
+        note=f"{s.interfaces.describe()}, {_grip_words(s)}; heat {_energy(result.heat)} a cycle, damping ratio {result.damping_ratio:.2g}",
     )

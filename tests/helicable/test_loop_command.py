@@ -6,10 +6,11 @@ import json
 import numpy as np
 import pytest
 
+from geometry import cross_section_mesh, read_cable
 from geometry.errors import SpecError
 from helicable.interface_words import read_interface, read_laws
 from helicable.main import main
-from homogenize import Coulomb, Elastic, Frictionless
+from homogenize import Coulomb, Elastic, Frictionless, axial_friction, grip_per_tension
 
 CABLE = "example-three-core"
 COARSE = ("--size", "2.5 mm")
@@ -102,11 +103,15 @@ def test_bending_lies_between_the_limits(tmp_path, sections):
 
 
 def test_tension_grips_the_conductors(tmp_path):
-    """A pulled cable slides less in torsion than one that is not pulled: more surface sticks, the peak is higher."""
-    arguments = ("--load", "torsion", "--amplitude", "20 deg/m", "--grip", "1 kPa", "--steps", "40")
+    """The grip is that of the pulled section, place by place, zero where the parts are pulled apart; it adds to the torque."""
+    arguments = ("--load", "torsion", "--amplitude", "20 deg/m", "--steps", "10", "--grip", "1 kPa")
     loose, pulled = run(tmp_path / "a", *arguments), run(tmp_path / "b", *arguments, "--tension", "300 N")
+    mesh, rubs = cross_section_mesh(read_cable(CABLE), size=2.5e-3), read_laws("conductor-insulation", friction=0.3)
+    pressure = np.maximum(1e3 + 300.0 * grip_per_tension(mesh, rubs), 0.0)
+    surface = axial_friction(mesh, rubs).surface
+    assert pulled["mean_grip"] == pytest.approx(pressure @ surface / surface.sum(), rel=1e-9)
+    assert loose["mean_grip"] == pytest.approx(1e3, rel=1e-12)
     assert pulled["peak_force"] > loose["peak_force"]
-    assert pulled["slopes"]["first_step"] > loose["slopes"]["first_step"]
 
 
 def test_pairs_go_from_bonded_to_sliding(sections):
