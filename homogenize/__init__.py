@@ -13,6 +13,7 @@ from homogenize.grip_pressure import grip_per_tension
 from homogenize.helical_cell import INTERFACES, HelicalCell, solve_helical_cell
 from homogenize.homogenization import Homogenization, homogenize_cable, slice_stiffness, strand_stiffness
 from homogenize.interface_choice import Interfaces
+from homogenize.opening_contact import OpeningPath, Unilateral, opening_path, opening_section
 from homogenize.periodic_cell import PeriodicCell, solve_periodic_cell
 from homogenize.rubbing_section import axial_friction, bending_friction
 from homogenize.section_stiffness import ORDER, SectionInertia, SectionStiffness, pitch_average
@@ -33,11 +34,13 @@ __all__ = [
     "Homogenization",
     "Interfaces",
     "LooseStiffness",
+    "OpeningPath",
     "PeriodicCell",
     "SectionInertia",
     "SectionStiffness",
     "StiffnessRange",
     "TwoStage",
+    "Unilateral",
     "VolumeAverage",
     "allowed_stiffness",
     "axial_bounds",
@@ -48,6 +51,8 @@ __all__ = [
     "grip_per_tension",
     "homogenize_cable",
     "loose_stiffness",
+    "opening_path",
+    "opening_section",
     "pitch_average",
     "slice_stiffness",
     "solve_helical_cell",

@@ -146,7 +146,7 @@ def _conditions(
 
 def _null_space(rows: FloatArray) -> FloatArray:
     """Null space of conditions (conditions, j, bodies) as (bodies, j, motions)."""
-    flat = np.moveaxis(rows, 2, 1).reshape(len(rows), -1)
+    flat = np.moveaxis(rows, 2, 1).reshape(len(rows), rows.shape[1] * rows.shape[2])
     flat = flat[np.abs(flat).max(axis=1) > 0] if flat.size else flat
     _, s, vh = np.linalg.svd(flat, full_matrices=True)
     values = np.zeros(vh.shape[0])

@@ -24,6 +24,7 @@ import numpy as np
 from geometry import Cable, CrossSectionMesh, cross_section_mesh, helical_slice, nested_cell
 from homogenize.cell_checks import Check, axial_bounds, check_cell
 from homogenize.helical_cell import HelicalCell, solve_helical_cell
+from homogenize.interface_choice import Interfaces
 from homogenize.periodic_cell import PeriodicCell, solve_periodic_cell
 from homogenize.section_stiffness import SectionStiffness, pitch_average
 from homogenize.volume_average import VolumeAverage, volume_average
@@ -51,7 +52,7 @@ class Homogenization:
 
 
 def homogenize_cable(
-    cable: Cable, *, interface: str = "bonded", size: float | None = None, progress: Progress | None = None
+    cable: Cable, *, interface: str | Interfaces = "bonded", size: float | None = None, progress: Progress | None = None
 ) -> Homogenization:
     """Mesh the cross-section, solve the helical cell and derive the constants.
 
@@ -59,8 +60,9 @@ def homogenize_cable(
     ----------
     cable : Cable
         From :func:`geometry.read_cable`.
-    interface : str
-        ``"bonded"``, or ``"frictionless"``: the conductors slide in what surrounds them, without opening.
+    interface : str or Interfaces
+        ``"bonded"``; ``"frictionless"``: the conductors slide in what surrounds them, without opening; or
+        :class:`~homogenize.interface_choice.Interfaces`, which names the parts that slide and the law of each interface.
     size : float, optional
         Element size [m], a share of the diameter if not given; elements are smaller in thin layers and gaps.
     progress : callable, optional

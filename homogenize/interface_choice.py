@@ -49,7 +49,7 @@ class Interfaces:
     ----------
     laws : mapping of names such as "conductor-insulation" or "core-filler" to a law:
         :class:`~homogenize.sliding_interface.Frictionless`, :class:`~homogenize.elastic_interface.Elastic`,
-        :class:`~homogenize.coulomb_interface.Coulomb`
+        :class:`~homogenize.coulomb_interface.Coulomb`, :class:`~homogenize.opening_contact.Unilateral`
 
     Raises
     ------

@@ -102,3 +102,15 @@ def condense_all(
             progress(i / len(orders), f"condensing harmonic {order} onto {len(slips)} slips")
         found.append(condense(system, slips, order))
     return tuple(found)
+
+
+def without_torque(harmonic: CondensedHarmonic) -> CondensedHarmonic:
+    """Harmonic 0 with the stretch alone: the twist eliminated under M_z = 0."""
+    C, A = harmonic.C, harmonic.A
+    ratio = C[1, 0] / C[1, 1]
+    return CondensedHarmonic(
+        0,
+        np.array([[C[0, 0] - C[0, 1] * ratio]]),
+        A[:, :1] - A[:, 1:] * ratio,
+        harmonic.S - np.outer(A[:, 1], A[:, 1]) / C[1, 1],
+    )

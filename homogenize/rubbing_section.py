@@ -17,14 +17,12 @@ Layered strands in bending, for comparison: Papailiou, J. Eng. Mech. 123 (1997) 
 
 from __future__ import annotations
 
-import numpy as np
-
 from geometry.cell_mesh import CrossSectionMesh
 from geometry.errors import SpecError
 from homogenize.coulomb_interface import Coulomb, SlipOperator
 from homogenize.friction_loop import Progress, RubbingSection
 from homogenize.interface_choice import Interfaces
-from homogenize.interface_condensation import CondensedHarmonic, condense_all
+from homogenize.interface_condensation import condense_all, without_torque
 from homogenize.section_system import section_system
 
 
@@ -50,7 +48,7 @@ def axial_friction(
     section = _rubbing(mesh, interfaces, (0,), progress)
     if not free_twist:
         return section
-    released = SlipOperator((_without_torque(section.operator.harmonics[0]),))
+    released = SlipOperator((without_torque(section.operator.harmonics[0]),))
     return RubbingSection(
         released,
         ("stretch",),
@@ -110,16 +108,4 @@ def _rubbing(
         normal=doubled.frame[0][:, links],
         parts=tuple((mesh.regions[a].name, mesh.regions[b].name) for a, b in doubled.regions[links]),
         complex_strain=bending,
-    )
-
-
-def _without_torque(harmonic: CondensedHarmonic) -> CondensedHarmonic:
-    """Eliminate the twist under M_z = 0."""
-    C, A = harmonic.C, harmonic.A
-    ratio = C[1, 0] / C[1, 1]
-    return CondensedHarmonic(
-        0,
-        np.array([[C[0, 0] - C[0, 1] * ratio]]),
-        A[:, :1] - A[:, 1:] * ratio,
-        harmonic.S - np.outer(A[:, 1], A[:, 1]) / C[1, 1],
     )

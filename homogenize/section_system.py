@@ -60,9 +60,10 @@ class SectionSystem:
 
 
 def section_system(
-    mesh: CrossSectionMesh, interface: str | Interfaces = "bonded", history: bool = False
+    mesh: CrossSectionMesh, interface: str | Interfaces = "bonded", history: bool = False, opening: bool = False
 ) -> SectionSystem:
-    """Assemble a section; `history` says that the caller follows laws that depend on the history of the load.
+    """Assemble a section; `history` says that the caller follows laws that depend on the history of the load, `opening` that it
+    follows interfaces that open.
 
     Raises
     ------
@@ -77,16 +78,28 @@ def section_system(
         E0, E1, E2 = field.matrices()
         pencil = SectionPencil(E0, sp.csr_array(E1.T - E1), E1, E2, field.rigid_motion(), field.area**0.5)
         return SectionSystem(field, pencil, gauge, None, np.zeros(field.unknowns))
-    remembers = [name for name, law in interfaces.laws.items() if not isinstance(law, Frictionless | Elastic)]
+    opens = [name for name, law in interfaces.laws.items() if getattr(law, "opens", False)]
+    if opens and not opening:
+        raise SpecError(
+            f'the interface "{opens[0]}" can open, its stiffness depends on the load: follow a path of stretch and twist with '
+            "opening_section and opening_path, or close it with Frictionless()."
+        )
+    remembers = [
+        name
+        for name, law in interfaces.laws.items()
+        if not isinstance(law, Frictionless | Elastic) and name not in opens
+    ]
     if remembers and not history:
         raise SpecError(
             f'the friction of "{remembers[0]}" has no single stiffness, its slip depends on the history of the load: '
-            "follow a load path with axial_friction_loop or bending_friction_loop, or use Frictionless() or Elastic(k_t)."
+            "follow a load path with friction_loop (`helicable loop`), or use Frictionless() or Elastic(k_t)."
         )
     sliding = sliding_field(field, mesh, interfaces)
     E0, E1, E2 = (sp.csr_array(sliding.T.T @ E @ sliding.T) for E in sliding.field.matrices())
     stiffness = np.zeros(len(sliding.Z))
-    stiffness[sliding.first_slip :] = np.repeat(sliding.constant_of_links("stiffness") * sliding.doubled.surface, 2)
+    stiffness[sliding.first_slip : sliding.first_opening] = np.repeat(
+        sliding.constant_of_links("stiffness") * sliding.doubled.surface, 2
+    )
     E2 = sp.csr_array(E2 + sp.diags_array(stiffness))
     pencil = SectionPencil(E0, sp.csr_array(E1.T - E1), E1, E2, sliding.Z, sliding.field.area**0.5)
     gauge = gauge_unknowns(field.nodes, sliding.anchored)

@@ -7,6 +7,7 @@ a slip s = (s_a, s_b) along the two tangents of the helical surface,
 
 needs no penalty: u = T (u_original, s) and K becomes T^T K T. N does not depend on z, and the same T serves tension, torsion, bending
 and shear. Slips that cost nothing are the frictionless interface; a law adds its forces to s; s = 0 is the bonded section.
+Where a law lets the parts open (:mod:`homogenize.opening_contact`) a third unknown g >= 0 moves the copy away, by -N g.
 
 A part that slides in its hole can move freely (:mod:`homogenize.free_motion`). These motions store no energy and no load does work on
 them; they are pinned in the z-independent problem, and named.
@@ -49,13 +50,15 @@ class SlidingField:
     Attributes
     ----------
     field : with doubled nodes
-    T : (3 n, unknowns) values of the doubled field from the free unknowns: those of the original nodes, then the slips
+    T : (3 n, unknowns) values of the doubled field from the free unknowns: those of the original nodes, the slips, the openings
     Z : (unknowns, 6) rigid motions in the free unknowns
     slip_pins : unknowns that are pinned in the z-independent problem, one for each free motion of a part
     free_motions : the same motions in words
     anchored : (n_original,) nodes of the body that holds the gauge of the whole section
     doubled : the links between the copies; the slip of link l are unknowns first_slip + 2 l and + 1
     laws : names and laws, numbered as in ``doubled.law``
+    opening : links that can open; the last unknowns are theirs, one each
+    undoubled : the field before the nodes were doubled
     """
 
     field: SectionField
@@ -66,11 +69,18 @@ class SlidingField:
     anchored: NDArray[np.bool_]
     doubled: DoubledNodes
     laws: Mapping[str, InterfaceLaw]
+    opening: NDArray[np.int64]
+    undoubled: SectionField
 
     @property
     def first_slip(self) -> int:
         """Number of the first slip unknown: three for each original node come before."""
-        return len(self.Z) - 2 * len(self.doubled.child)
+        return self.first_opening - 2 * len(self.doubled.child)
+
+    @property
+    def first_opening(self) -> int:
+        """Number of the first opening unknown."""
+        return len(self.Z) - len(self.opening)
 
     def links_of(self, kind: type) -> NDArray[np.int64]:
         """Links whose law is of a class."""
@@ -103,22 +113,28 @@ def sliding_field(field: SectionField, mesh: CrossSectionMesh, interfaces: Inter
         u = motions.displacement.reshape(-1, 3, slips.shape[1])
         jump = u[doubled.child] - u[doubled.parent]
         slips = np.einsum("kxl,lxm->lkm", doubled.frame[1:], jump).reshape(slips.shape)
-    in_unknowns = np.concatenate([motions.displacement[: 3 * n], slips])
+    opening = np.flatnonzero(np.array([getattr(law, "opens", False) for law in interfaces.laws.values()])[doubled.law])
+    closed = np.zeros((len(opening), slips.shape[1]))
+    in_unknowns = np.concatenate([motions.displacement[: 3 * n], slips, closed])
     rigid = field.rigid_motion()
     return SlidingField(
         field=replace(field, nodes=doubled.nodes, cells=doubled.cells),
-        T=_transfer(doubled, n),
-        Z=np.concatenate([rigid, np.zeros((2 * len(doubled.child), 6))]),
+        T=_transfer(doubled, n, opening),
+        Z=np.concatenate([rigid, np.zeros((2 * len(doubled.child) + len(opening), 6))]),
         slip_pins=pins(in_unknowns),
         free_motions=motions.sentences,
         anchored=motions.at_rest[:n],
         doubled=doubled,
         laws=dict(interfaces.laws),
+        opening=opening,
+        undoubled=field,
     )
 
 
-def _transfer(doubled: DoubledNodes, n: int) -> sp.csr_array:
-    """T: a copy is the node at the root of its links plus the slips on the way."""
+def _transfer(doubled: DoubledNodes, n: int, opening: NDArray[np.int64]) -> sp.csr_array:
+    """T: a copy is the node at the root of its links plus the slips and openings on the way."""
+    first_opening = 3 * n + 2 * len(doubled.child)
+    column_of = {int(link): first_opening + k for k, link in enumerate(opening)}
     link_of = {int(child): i for i, child in enumerate(doubled.child)}
     rows, columns, values = [np.arange(3 * n)], [np.arange(3 * n)], [np.ones(3 * n)]
     for start in link_of:
@@ -128,9 +144,13 @@ def _transfer(doubled: DoubledNodes, n: int) -> sp.csr_array:
             rows.append(np.repeat(3 * start + np.arange(3), 2))
             columns.append(np.tile(3 * n + 2 * i + np.arange(2), 3))
             values.append(doubled.frame[1:, :, i].T.ravel())
+            if i in column_of:
+                rows.append(3 * start + np.arange(3))
+                columns.append(np.full(3, column_of[i]))
+                values.append(-doubled.frame[0, :, i])
             node = int(doubled.parent[i])
         rows.append(3 * start + np.arange(3))
         columns.append(3 * node + np.arange(3))
         values.append(np.ones(3))
-    shape = (3 * doubled.nodes.shape[1], 3 * n + 2 * len(doubled.child))
+    shape = (3 * doubled.nodes.shape[1], first_opening + len(opening))
     return sp.coo_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=shape).tocsr()

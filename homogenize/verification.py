@@ -1,8 +1,9 @@
-"""Every benchmark of section and cell, in the order of the theory: bars, cylinders, springs, strands, limits."""
+"""Every benchmark of section and cell, in the order of the theory: bars, cylinders, springs, strands, limits, cables."""
 
 from __future__ import annotations
 
 from homogenize.benchmark import Case
+from homogenize.benchmark_cables import cable_cases
 from homogenize.benchmark_cylinder import cylinder_cases
 from homogenize.benchmark_limits import limit_cases
 from homogenize.benchmark_prismatic import prismatic_cases
@@ -12,4 +13,5 @@ from homogenize.benchmark_strand import strand_cases
 
 def section_cases() -> tuple[Case, ...]:
     """The cases; run them with :func:`homogenize.benchmark.run_cases`."""
-    return (*prismatic_cases(), *cylinder_cases(), *spring_cases(), *strand_cases(), *limit_cases())
+    simple = (*prismatic_cases(), *cylinder_cases(), *spring_cases())
+    return (*simple, *strand_cases(), *limit_cases(), *cable_cases())

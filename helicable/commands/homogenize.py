@@ -12,14 +12,15 @@ import typer
 from geometry import Cable, read_cable
 from geometry.errors import ConvergenceError, SpecError
 from geometry.units import read_quantity
+from helicable.interface_words import read_interface
 from helicable.options import CableArgument, JsonOption, OutOption, SizeOption
 from helicable.published import modulus_rows
 from helicable.screen import engineering, folder, progress, say, table, write_json
 from helicable.two_stage_report import show_two_stage, two_stage_record
 from homogenize import (
-    INTERFACES,
     ORDER,
     Homogenization,
+    Interfaces,
     PeriodicCell,
     SectionInertia,
     homogenize_cable,
@@ -48,7 +49,11 @@ def homogenize(
         str, typer.Option(help="With `--method two-stage`: strands of a conductor `bonded` or `frictionless`.")
     ] = "bonded",
     interface: Annotated[
-        str, typer.Option(help="`bonded`; or `frictionless`: conductors slide, without opening.")
+        str,
+        typer.Option(
+            help="`bonded`; `frictionless`: conductors slide, without opening; or pairs with laws, such as "
+            '"conductor-insulation=frictionless,core-filler=elastic:1e9 Pa/m".'
+        ),
     ] = "bonded",
     size: SizeOption = None,
     phase: Annotated[str, typer.Option(help="Angle of the section for the values at a phase.")] = "0 deg",
@@ -66,7 +71,7 @@ def homogenize(
 
     Example: `helicable homogenize mcpt-1.9-3.3-3x35 --json section.json`
     """
-    _check_choices(method, interface, level)
+    held_by = _check_choices(method, interface, level)
     _check_export(method, export, format)
     made = read_cable(cable)
     element = None if size is None else read_quantity(size, "m", "--size")
@@ -89,7 +94,7 @@ def homogenize(
         write_json(json, two_stage_record(staged, _head(made, staged.section.area), time.perf_counter() - start))
         return
     with progress("2D helical cell") as tell:
-        result = homogenize_cable(made, interface=interface, size=element, progress=tell)
+        result = homogenize_cable(made, interface=held_by, size=element, progress=tell)
     show_constants(result, angle)
     write_json(json, homogenization_record(result, angle))
     if out is not None:
@@ -110,17 +115,22 @@ def homogenize(
         )
 
 
-def _check_choices(method: str, interface: str, level: str) -> None:
+def _check_choices(method: str, interface: str, level: str) -> str | Interfaces:
+    """The interfaces that were asked for."""
     if method not in METHODS:
         raise SpecError(f'--method "{method}" is not known; choose {", ".join(METHODS)}.')
-    if interface not in INTERFACES:
-        raise SpecError(f'--interface "{interface}" is not known; choose {" or ".join(INTERFACES)}.')
-    if method == "cell" and interface != "bonded":
-        raise SpecError("the 3D cell bonds all parts; use --method helical for --interface frictionless.")
+    found = read_interface(interface)
+    if method == "cell" and found != "bonded":
+        raise SpecError(f'the 3D cell bonds all parts; use --method helical for --interface "{interface}".')
+    if method == "two-stage" and not isinstance(found, str):
+        raise SpecError(
+            "the two-stage route knows bonded and frictionless only; use --method helical for pairs with laws."
+        )
     if level not in LEVELS:
         raise SpecError(f'--level "{level}" is not known; choose {" or ".join(LEVELS)}.')
     if level == "strand" and method != "cell":
         raise SpecError("the strands one by one need the 3D cell: add --method cell.")
+    return found
 
 
 def _check_export(method: str, export: Path | None, format: str | None) -> None:
@@ -141,7 +151,8 @@ def exported_section(result: Homogenization) -> ExportedSection:
 
 def held(result: Homogenization) -> str:
     """How the parts hold together, in words."""
-    return "all parts bonded" if result.cell.interface == "bonded" else "conductors sliding without friction"
+    words = {"bonded": "all parts bonded", "frictionless": "conductors sliding without friction"}
+    return words.get(result.cell.interface, result.cell.interface)
 
 
 def constant_rows(result: Homogenization) -> list[tuple[str, str, str]]:
@@ -196,6 +207,8 @@ def show_constants(result: Homogenization, phase: float = 0.0) -> None:
         )
     checks = [("holds" if c.holds else "FAILS", c.name, c.sentence) for c in result.checks]
     table("Checks", ("", "check", "found"), checks)
+    if result.cell.free_motions:
+        say(f"Free, and held in the solution, since nothing resists: {', '.join(result.cell.free_motions)}.")
     say(f"{result.cell.field.unknowns} unknowns, {len(result.mesh.cells)} elements, {result.seconds:.1f} s")
 
 
@@ -251,6 +264,7 @@ def homogenization_record(result: Homogenization, phase: float = 0.0) -> dict[st
         "mesh": {"unknowns": result.cell.field.unknowns, "elements": len(result.mesh.cells)},
         "method": "helical",
         "interface": result.cell.interface,
+        "free_motions": list(result.cell.free_motions),
         "seconds": result.seconds,
         "notes": [
             f"long cable, {held(result)}; the published values belong to a finite specimen and are not a target",

@@ -10,6 +10,7 @@ import typer
 from geometry import read_cable
 from geometry.errors import SpecError
 from geometry.units import read_quantity
+from helicable.interface_words import read_interface
 from helicable.options import CableArgument, JsonOption, OutOption, SizeOption
 from helicable.screen import engineering, folder, progress, say, table, write_json
 from homogenize import INTERFACES, Homogenization, homogenize_cable
@@ -32,7 +33,7 @@ def stress(
         bool, typer.Option("--blocked", help="The ends cannot turn: twist zero, instead of a torque.")
     ] = False,
     interface: Annotated[
-        str, typer.Option(help=f"`{'`, `'.join(INTERFACES)}`, as in `helicable homogenize`.")
+        str, typer.Option(help=f"`{'`, `'.join(INTERFACES)}`, or pairs with laws, as in `helicable homogenize`.")
     ] = "bonded",
     size: SizeOption = None,
     json: JsonOption = None,
@@ -54,8 +55,9 @@ def stress(
             f"--bend-radius {1e3 * radius:g} mm must exceed the radius of the cable, {5e2 * made.outer_diameter:.4g} mm."
         )
     element = None if size is None else read_quantity(size, "m", "--size")
+    held_by = read_interface(interface)
     with progress("stress recovery") as tell:
-        result = homogenize_cable(made, interface=interface, size=element, progress=tell)
+        result = homogenize_cable(made, interface=held_by, size=element, progress=tell)
         kappa = 0.0 if radius is None else 1 / radius
         forces = section_forces(
             result.section, tension=pull, curvature=(kappa, 0.0), torque=twisting, twist=0.0 if blocked else None

@@ -9,7 +9,7 @@ from helicable.main import main
 
 CABLE = "mcpt-1.9-3.3-3x35"
 VERBS = (
-    "cables", "show", "mesh", "homogenize", "stress", "tow", "check", "compare", "explain", "add", "next", "effects", "demo",
+    "cables", "show", "mesh", "homogenize", "loop", "stress", "tow", "check", "compare", "explain", "add", "next", "effects", "demo",
     "verify",
 )  # fmt: skip
 
