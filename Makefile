@@ -11,7 +11,7 @@ help:
 	@echo "make test        install and run the tests"
 	@echo "make install     only make .venv with helicable in .venv/bin"
 	@echo "make lint types imports   the checks that run beside the tests"
-	@echo "make benchmarks  time and memory of the cell and of the rod"
+	@echo "make benchmarks  time and memory of mesh, cell and rod"
 	@echo "make gallery     draw docs/gallery.md and its pictures again"
 
 $(BIN)/python:
