@@ -12,7 +12,7 @@ from geometry.cell_mesh import CrossSectionMesh, SliceMesh, SweptCell
 from geometry.colour_scheme import INK, KIND_TITLES, SOFT, kind_colour, part_colour
 from geometry.mesh_quality import scaled_jacobian
 from geometry.rendered_scene import Label, Surface, View, rendered, write_picture
-from geometry.section_picture import saved
+from geometry.section_picture import grouped, saved
 from geometry.stripping import WEIGHTS
 
 FACES = {
@@ -68,8 +68,8 @@ def draw_mesh(section: CrossSectionMesh, path: str | Path, title: str = "", dpi:
     figure.text(
         0.07,
         0.922,
-        f"{_grouped(len(section.cells))} elements ({section.cell_kind}) \u00b7 {_grouped(len(section.points))} nodes \u00b7 "
-        f"{_grouped(3 * len(section.points))} displacement unknowns \u00b7 scaled Jacobian at least {quality.min():.2f}, "
+        f"{grouped(len(section.cells))} elements ({section.cell_kind}) \u00b7 {grouped(len(section.points))} nodes \u00b7 "
+        f"{grouped(3 * len(section.points))} displacement unknowns \u00b7 scaled Jacobian at least {quality.min():.2f}, "
         f"median {np.median(quality):.2f}",
         fontsize=9,
         color=SOFT,
@@ -97,9 +97,9 @@ def draw_swept_cell(
     view = View(radius, cell.height, size, towards=(-0.62, 0.42, 0.66))
     image = rendered(list(cell_surfaces(cell, ends)), view)
     blocks = _blocks(cell)
-    counts = [f"{_grouped(len(cells))} {kind}" + ("s" if kind != "tetra" else "") for kind, cells, _ in blocks]
+    counts = [f"{grouped(len(cells))} {kind}" + ("s" if kind != "tetra" else "") for kind, cells, _ in blocks]
     counts = [c.replace("hexahedrons", "hexahedra") for c in counts]
-    facts = f"{', '.join(counts)} \u00b7 {_grouped(len(cell.points))} nodes \u00b7 height {1e3 * cell.height:.4g} mm"
+    facts = f"{', '.join(counts)} \u00b7 {grouped(len(cell.points))} nodes \u00b7 height {1e3 * cell.height:.4g} mm"
     return write_picture(image, view, title or "Mesh of the cell", facts, _cell_labels(cell, ends, view), path)
 
 
@@ -176,7 +176,3 @@ def _blocks(cell: SweptCell | SliceMesh) -> list[tuple[str, NDArray[np.int64], N
     if isinstance(cell, SliceMesh):
         return [(cell.cell_kind, cell.cells, cell.region_of)]
     return [(block.kind, block.cells, block.region_of) for block in cell.blocks]
-
-
-def _grouped(number: int) -> str:
-    return f"{number:,}".replace(",", "\u2009")

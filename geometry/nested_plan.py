@@ -19,13 +19,11 @@ from geometry.common_period import TOLERANCE, cell_of
 from geometry.conductor_section import PATCH, ConductorSection, conductor_section
 from geometry.errors import MeshError
 from geometry.host_section import Hole, HostSection, host_section, layer_round
+from geometry.mesh_memory import check_memory
 from geometry.section_mesh import DEFAULT_SIZE
 from geometry.strand import Conductor
 from geometry.turning_conductor import TurningConductor, own_turn_rate
 
-LARGEST = 20_000_000
-BYTES_PER_ELEMENT = 700
-"""Measured peak of meshing, quality and export together, per hexahedron."""
 DENSITY = 5.0
 """Cells of a section per (size^2) of its area, refinement at contacts included."""
 FLATTEST, TALLEST = 0.7, 1.5
@@ -218,9 +216,4 @@ def _check_estimate(cable: Cable, height: float, elements: int | None, size: flo
     """Refuse what would be too large, before any work."""
     per_layer = DENSITY * cable.area / size**2
     wanted = per_layer * (layers or height / size)
-    wanted = max(wanted, elements or 0)
-    if wanted > LARGEST:
-        raise MeshError(
-            f"{wanted:.2g} elements need about {wanted * BYTES_PER_ELEMENT / 1e9:.0f} GB of memory; at most {LARGEST:.0e} are made: "
-            "try fewer elements, a larger size or fewer layers."
-        )
+    check_memory(max(wanted, elements or 0))

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from geometry.cell_mesh import CrossSectionMesh, SliceMesh, SweptCell
-from geometry.errors import GeometryError
 from geometry.mesh_quality import block_quality, quality_histogram
+from geometry.section_picture import grouped, saved
 
 INK = "#22262b"
 SOFT = "#6b7178"
@@ -62,12 +62,12 @@ def draw_quality(
         if counts[0]:
             axes.bar(-0.02, counts[0], 0.02, align="edge", color=POOR)
         axes.set(yscale="log", ylim=(0.5, 3 * max(counts.max(), 2)), xlim=(-0.02, 1.0), ylabel="elements")
-        text = f"{_grouped(len(quality))} {TITLES[block.kind]} \u00b7 at least {quality.min():.2f}, median {np.median(quality):.2f}"
+        text = f"{grouped(len(quality))} {TITLES[block.kind]} \u00b7 at least {quality.min():.2f}, median {np.median(quality):.2f}"
         axes.set_title(text, fontsize=9, color=SOFT, loc="left")
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
     rows[-1].set_xlabel("scaled Jacobian (1 perfect, 0 flat)")
-    total = _grouped(sum(len(block.cells) for block in mesh.blocks))
+    total = grouped(sum(len(block.cells) for block in mesh.blocks))
     figure.text(
         0.1,
         1 - 0.3 / (1.5 + 1.75 * count),
@@ -76,15 +76,4 @@ def draw_quality(
         fontweight="bold",
         color=INK,
     )
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(path, dpi=dpi)
-    except (OSError, ValueError) as error:
-        raise GeometryError(
-            f'the picture cannot be written to "{path}": {error}; try a name that ends in .png.'
-        ) from None
-    return path
-
-
-def _grouped(number: int) -> str:
-    return f"{number:,}".replace(",", "\u2009")
+    return saved(figure, path, dpi)

@@ -202,3 +202,8 @@ def saved(figure: Any, path: str | Path, dpi: int) -> Path:
             f'the picture cannot be written to "{path}": {error}; try a name that ends in .png.'
         ) from None
     return path
+
+
+def grouped(number: int) -> str:
+    """A count with thin spaces between its thousands."""
+    return f"{number:,}".replace(",", "\u2009")
