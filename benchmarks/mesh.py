@@ -5,10 +5,10 @@ Three tables, ratios within one run:
 1. the cell of double helices, from the file to the mesh with its volumes and quality; every row in a process of its own, so that
    its peak memory is its own;
 2. doubling the nodes of all interfaces between strands and round the conductors, against meshing;
-3. the peer: gmsh's own tetrahedra of the same seven strands of one power core (OpenCASCADE solids, at the edge length that the hexahedra have
-   across the strand, over the same height), without anything round them. Not the same mesh: hexahedra are longer along the strand.
+3. the peer: gmsh's own tetrahedra of the same seven strands of one power core (OpenCASCADE solids, over the same height, at the edge
+   length that the hexahedra have across the strand), without anything round them. Not the same mesh: hexahedra are longer along it.
 
-Run: python -m benchmarks.mesh (about two minutes). The last results are in benchmarks/mesh.md.
+Run: python -m benchmarks.mesh (about a minute). The last results are in benchmarks/mesh.md.
 """
 
 from __future__ import annotations
