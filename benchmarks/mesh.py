@@ -5,8 +5,8 @@ Three tables, ratios within one run:
 1. the cell of double helices, from the file to the mesh with its volumes and quality; every row in a process of its own, so that
    its peak memory is its own;
 2. doubling the nodes of all interfaces between strands and round the conductors, against meshing;
-3. the peer: gmsh's own tetrahedra of the same seven strands of one power core (OpenCASCADE solids, over the same height, at the edge
-   length that the hexahedra have across the strand), without anything round them. Not the same mesh: hexahedra are longer along it.
+3. the peer: gmsh's own tetrahedra of the same seven strands of one power core (OpenCASCADE solids, over the same height), without
+   anything round them. Not the same mesh: tetrahedra of 0.6 mm; hexahedra of 0.4 mm across the strand and 2.2 mm along it.
 
 Run: python -m benchmarks.mesh (about a minute). The last results are in benchmarks/mesh.md.
 """
@@ -38,7 +38,7 @@ from geometry.gmsh_session import gmsh_session
 CABLE = "mcpt-1.9-3.3-3x35"
 ELEMENTS = (160_000, 320_000, 640_000, 1_280_000)
 STRAND_EDGE = 0.6e-3
-"""Edge length of the peer's tetrahedra [m]; about that of the strands' hexahedra at 320 000."""
+"""Edge length of the peer's tetrahedra [m], between the width and the length of the strands' hexahedra at 320 000."""
 
 
 def one_cell(elements: int) -> dict[str, Any]:
