@@ -7,6 +7,7 @@ from homogenize.benchmark_cables import cable_cases
 from homogenize.benchmark_cylinder import cylinder_cases
 from homogenize.benchmark_limits import limit_cases
 from homogenize.benchmark_prismatic import prismatic_cases
+from homogenize.benchmark_rubber_ring import rubber_ring_cases
 from homogenize.benchmark_spring import spring_cases
 from homogenize.benchmark_strand import strand_cases
 
@@ -14,4 +15,4 @@ from homogenize.benchmark_strand import strand_cases
 def section_cases() -> tuple[Case, ...]:
     """The cases; run them with :func:`homogenize.benchmark.run_cases`."""
     simple = (*prismatic_cases(), *cylinder_cases(), *spring_cases())
-    return (*simple, *strand_cases(), *limit_cases(), *cable_cases())
+    return (*simple, *strand_cases(), *limit_cases(), *cable_cases(), *rubber_ring_cases())
