@@ -62,12 +62,15 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class _Touch:
-    """Support of two traces on each other: `middle` of the flat, its `normal` from the first to the second, `gap`."""
+class Touch:
+    """Support of two traces on each other: `middle` of the flat [m], its `normal` from the first to the second, `gap` [m], and the
+    angles phi of the two support points on their traces."""
 
     middle: NDArray[np.float64]
     normal: NDArray[np.float64]
     gap: float
+    on_first: float
+    on_second: float
 
 
 def turned(points: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
@@ -104,7 +107,7 @@ def find_contacts(
         a, b = orbit[0]
         if np.linalg.norm(centre_of(places[a]) - centre_of(places[b])) > REACH * radius:
             continue
-        touch = _touch(traces[a], traces[b])
+        touch = touch_of(traces[a], traces[b])
         if touch.gap < -OVERLAP * radius:
             raise GeometryError(
                 f"strands {a} and {b} of a conductor overlap by {-1e3 * touch.gap:.3g} mm: lay fewer strands in the layer, make "
@@ -161,41 +164,38 @@ def centre_of(member: StrandPlace | WireTrace) -> NDArray[np.float64]:
     return member.centre_radius * np.array([np.cos(member.phase), np.sin(member.phase)])
 
 
-def _touch(a: WireTrace, b: WireTrace) -> _Touch:
+def touch_of(a: WireTrace, b: WireTrace) -> Touch:
     """Largest separation of two traces over all directions near the line of their centres."""
     from scipy.optimize import minimize_scalar  # slow to load, needed here only
 
     line = centre_of(b) - centre_of(a)
     base = float(np.arctan2(line[1], line[0]))
 
-    def support(angle: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    def touch(angle: float) -> Touch:
         n = np.array([np.cos(angle), np.sin(angle)])
-        return n, _support(a, n), _support(b, -n)
-
-    def separation(angle: float) -> float:
-        n, pa, pb = support(angle)
-        return float(n @ (pb - pa))
+        on_a, on_b = _support(a, n), _support(b, -n)
+        pa, pb = a.point(on_a), b.point(on_b)
+        return Touch((pa + pb) / 2, n, float(n @ (pb - pa)), on_a, on_b)
 
     found = minimize_scalar(
-        lambda x: -separation(base + x), bounds=(-0.5, 0.5), method="bounded", options={"xatol": 1e-9}
+        lambda x: -touch(base + x).gap, bounds=(-0.5, 0.5), method="bounded", options={"xatol": 1e-9}
     )
-    n, pa, pb = support(base + round(float(found["x"]), 7))
-    return _Touch((pa + pb) / 2, n, float(n @ (pb - pa)))
+    return touch(base + round(float(found["x"]), 7))
 
 
-def _support(trace: WireTrace, n: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The point of a trace that lies farthest along `n`, by table and Newton steps."""
+def _support(trace: WireTrace, n: NDArray[np.float64]) -> float:
+    """The angle phi of the point of a trace that lies farthest along `n`, by table and Newton steps."""
     table = np.linspace(0, 2 * np.pi, 128, endpoint=False)
     phi = float(table[(trace.point(table) @ n).argmax()])
     for _ in range(4):
         bend = (trace.derivative(phi + 1e-5) - trace.derivative(phi - 1e-5)) @ n / 2e-5
         phi -= float(np.clip(trace.derivative(phi) @ n / min(bend, -0.1 * trace.radius), -0.05, 0.05))
-    return trace.point(phi)
+    return phi
 
 
 def _closed(
     orbits: Sequence[tuple[tuple[int, int], ...]],
-    touches: dict[tuple[tuple[int, int], ...], _Touch],
+    touches: dict[tuple[tuple[int, int], ...], Touch],
     outer: range,
     count: int,
     radius: float,
@@ -232,7 +232,7 @@ def _closed(
 
 def _least_angle(
     closed: Sequence[tuple[tuple[int, int], ...]],
-    touches: dict[tuple[tuple[int, int], ...], _Touch],
+    touches: dict[tuple[tuple[int, int], ...], Touch],
     places: Sequence[StrandPlace],
     outer: range,
     fold: int,
