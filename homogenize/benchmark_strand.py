@@ -1,10 +1,11 @@
 """The 1 + 6 strand (cases T5, T6) in the 2D cell against the strand models, in tension, torsion and bending.
 
-Tension and torsion: each wire is tied to the core over a flat of the half-width that Hertz gives at 0.2 % strain (0.009 to 0.016 core
-radii). A flat yields, the narrower the more, by the logarithm of its width; the models of strands overlook it, and a tie along a line of
-no width has no limit under refinement. With it the energy model gives kee within 0.04 % (9.2 deg) to 0.4 % (17 deg) of the cell. The band of
-the cell, from 0.985 of the energy model to 1.005 of the rigid one, holds with the compliance in the energy model. Without it the cell is
-0.9816 of the energy model at 17 deg, outside 0.985: flats three times as wide (nine times the force) would be needed to lie within.
+Tension and torsion: each wire is tied to the core over a flat of the half-width that Hertz gives at 0.2 % strain (0.009 to 0.016
+core radii). A flat yields, the narrower the more, by the logarithm of its width; the models of strands overlook it, and a tie along
+a line of no width has no limit under refinement. With it the energy model gives kee within 0.04 % (9.2 deg) to 0.4 % (17 deg) of the
+cell. The band of the cell, from 0.985 of the energy model to 1.005 of the rigid one, holds with this compliance in the energy model.
+Without it the cell is 0.9816 of the energy model at 17 deg, outside 0.985: flats of three times the width, so nine times the force,
+would be needed to lie within.
 
 Bending: each wire meets the core along one line, in the section one node. The frictionless wire keeps the normal component there. A bond
 along a line has the same logarithm in shear and does not reach the stick limit.

@@ -18,9 +18,10 @@ from numpy.typing import NDArray
 
 from geometry.cell_mesh import SliceMesh, SweptCell
 from geometry.errors import MeshError
+from homogenize.cell_operator import CellOperator
 from homogenize.floquet_load import LoadGroup, load_groups
 from homogenize.floquet_problem import SolvedGroup, solve_group
-from homogenize.mean_dilatation import region_volumes, stiffness_matrix
+from homogenize.mean_dilatation import region_volumes
 from homogenize.section_stiffness import SectionStiffness
 
 Progress = Callable[[float, str], None]
@@ -96,14 +97,14 @@ def solve_periodic_cell(
         )
     tell = progress or (lambda fraction, sentence: None)
     tell(0.0, f"assembling {sum(len(block.cells) for block in mesh.blocks)} elements")
-    K = stiffness_matrix(mesh)
+    M = CellOperator(mesh)
     angle = mesh.twist_rate * mesh.height
     groups = load_groups(angle, bending)
     solved = []
     for number, group in enumerate(groups):
         share = (0.1 + 0.9 * number / len(groups), 0.9 / len(groups))
         solved.append(
-            solve_group(mesh, K, group, tolerance, max_iterations, lambda f, s, p=share: tell(p[0] + p[1] * f, s))
+            solve_group(mesh, M, group, tolerance, max_iterations, lambda f, s, p=share: tell(p[0] + p[1] * f, s))
         )
     tell(1.0, "done")
     solutions = [s for group in solved for s in group.solutions]
