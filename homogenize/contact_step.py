@@ -43,7 +43,9 @@ _SPRING = 0.015
 _RELAXATION = 1.6
 _SMALL = 1e-3
 """Friction forces below this share of the load's forces are not resolved any better than those of this size."""
-_MEMORY = 8
+_EXTRAPOLATED, _CYCLE = 500, 800
+"""Iterations that are sped up, of every so many; large friction at parts that open can need some without."""
+_MEMORY = 20
 """Steps that are extrapolated."""
 _GROWTH = 2.0
 """Growth of the residual at which an extrapolation is given up."""
@@ -115,7 +117,10 @@ def contact_step(
             scale = max(scale, rho * float((np.abs(v - z) * L)[:, 2 * operator.rubbing :].max()))
         if off <= TOLERANCE * scale:
             return _landed(old + z, z, laws, old, operator.rubbing), iteration
-        v = extrapolate(v, _RELAXATION * (d - z), np.sqrt(L))
+        step = _RELAXATION * (d - z)
+        if iteration % _CYCLE == 0:
+            extrapolate = Extrapolation(v.size)
+        v = extrapolate(v, step, np.sqrt(L)) if iteration % _CYCLE < _EXTRAPOLATED else v + step
     worst = int(apart.max(axis=0).argmax())
     raise UnsettledError(
         f"the slips of a load step did not settle in {MOST_ITERATIONS} iterations: forces are still out of balance by "
@@ -153,7 +158,7 @@ class Extrapolation:
             back, self.plain, self.last, self.count = self.plain, None, None, 0
             self.best = np.inf
             return back
-        self.best = norm
+        self.best = min(self.best, norm)
         if self.last is not None:
             row = self.count % _MEMORY
             self.dx[row], self.df[row] = x - self.last[0], f - self.last[1]

@@ -53,7 +53,7 @@ class CondensedHarmonic:
     def frictionless(self) -> NDArray:
         """C - A^H S^+ A (p, p): the stiffness when every slip is free."""
         values, vectors = np.linalg.eigh(self.S)
-        kept = values > 1e-9 * values.max()
+        kept = values > 1e-9 * values.max(initial=0.0)
         part = vectors[:, kept].conj().T @ self.A
         return self.C - part.conj().T @ (part / values[kept, None])
 

@@ -52,6 +52,7 @@ class Multigrid:
         self.matrix: Any = _with_short_indices(matrix)
         first, level = matrix.nnz, self.matrix
         modes, entries = rigid_modes(points).astype(matrix.dtype), 0
+        modes_here = modes
         self.levels: list[Level] = []
         while len(modes) > COARSEST and len(self.levels) < LEVELS:
             made = _coarsened(level, points, modes, height)
@@ -63,6 +64,7 @@ class Multigrid:
         self.kind = np.complex64 if np.iscomplexobj(matrix.data) else np.float32
         self.inverse = np.linalg.pinv(level.toarray(), rcond=1e-12, hermitian=True)
         self.complexity = (entries + level.nnz) / first
+        self.free = _free_motions(self.matrix, modes_here)
 
     def precondition(self, r: NDArray) -> NDArray:
         """One V-cycle on the residual: forward Gauss-Seidel down, backward up, so that it is symmetric.
@@ -74,7 +76,8 @@ class Multigrid:
         if not self.levels or not size > 0:
             return self.inverse @ r
         b = (r / size).astype(self.kind).reshape(-1, 3)
-        return size * self._cycle(0, b).ravel().astype(r.dtype)
+        z = size * self._cycle(0, b).ravel().astype(r.dtype)
+        return z - self.free @ (self.free.conj().T @ z)
 
     def solve(self, rhs: NDArray, tolerance: float, max_iterations: int) -> Solution:
         """Solve with the matrix alone, until the error in the energy norm is about `tolerance` of the solution."""
@@ -173,6 +176,13 @@ def _with_short_indices(matrix: Any) -> Any:
     """The same data as a scipy matrix with 32-bit indices, which pyamg asks for."""
     make = sp.bsr_matrix if matrix.format == "bsr" else sp.csr_matrix
     return make((matrix.data, matrix.indices.astype(np.int32), matrix.indptr.astype(np.int32)), shape=matrix.shape)
+
+
+def _free_motions(matrix: Any, modes: NDArray) -> NDArray:
+    """Orthonormal rigid motions that cost nothing, (n, k): they would grow unseen in the solution."""
+    Q = np.linalg.qr(modes)[0]
+    values, vectors = np.linalg.eigh(Q.conj().T @ np.column_stack([matrix @ q for q in Q.T]))
+    return Q @ vectors[:, values < 1e-13 * np.abs(matrix.data).max()]
 
 
 def rigid_modes(points: NDArray[np.float64]) -> NDArray[np.float64]:
