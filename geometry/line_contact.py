@@ -55,7 +55,7 @@ def line_contact(a: WireTrace, b: WireTrace) -> LineContact:
     lean = tau * (n[0] * x[1] - n[1] * x[0])
     along = tau * float(n @ x) / np.sqrt(1 + tau**2 * float(x @ x))
     across = 1 - along**2
-    rise = _curvature(a, touch.on_first) + _curvature(b, touch.on_second)
+    rise = a.curvature(touch.on_first) + b.curvature(touch.on_second)
     return LineContact(float(rise / np.sqrt(1 + lean**2) / across), float(1 / np.sqrt(across)))
 
 
@@ -88,9 +88,3 @@ def hertz_half_width(line_force: float, contact: LineContact, a: Material, b: Ma
         )
     softness = (1 - a.nu**2) / a.E + (1 - b.nu**2) / b.E
     return float(np.sqrt(4 * line_force * softness / (np.pi * contact.curvature)))
-
-
-def _curvature(trace: WireTrace, phi: float, step: float = 1e-4) -> float:
-    """Curvature [1/m] of a trace, positive where it bulges."""
-    (x, y), (u, v) = trace.derivative(phi), (trace.derivative(phi + step) - trace.derivative(phi - step)) / (2 * step)
-    return float((x * v - y * u) / np.hypot(x, y) ** 3)

@@ -8,7 +8,13 @@ Optimization, 2004, section 8.2.2), negative where they overlap:
 They share a flat, normal to that n, half-way between the two support points, if g is below `CLOSED` strand radii; where the
 pattern was scaled down to a stated diameter, strands of their full radius are meant. A strand that would hang free is held by
 its nearest neighbour, up to `HELD`; in a real conductor it would have settled there.
-Strands of the outermost layer share edges with the circle about the conductor.
+Strands of the outermost layer share edges with the circle about the conductor, over an arc of the same width as near as its nodes allow, at least an edge to each side.
+
+How wide a flat is, is physics, not mesh: the bonded stiffness grows with the logarithm of the width. Hertz gives it for round rods and
+a known force (line_contact.py). Without a number the half-width is `FLAT` strand radii: there a circle has left its tangent by 1.1 % of its
+radius, half the gap that is closed here (`CLOSED`) and about what ropes of fine wires give way where they press on each other.
+Strands whose round traces overlap share a flat at least as wide as the overlap.
+A mesh resolves flats down to a half-width of `NARROWEST` times the distance of its nodes.
 """
 
 from __future__ import annotations
@@ -30,10 +36,14 @@ HELD = 0.25
 """Gaps up to this fraction of the strand radius are closed if a strand would hang free otherwise."""
 OVERLAP = 0.15
 """Overlaps beyond this fraction of the strand radius are refused."""
-HALF_WIDTH = 0.3
+FLAT = 0.15
+"""Half-width of a flat over the strand radius, where none is stated."""
+WIDEST = 0.3
 """Largest half-width of a flat over the strand radius."""
-TWO_EDGES = 0.55
-"""Flats have one edge if the nodes are farther apart than this many strand radii."""
+ROOM = 1.1
+"""Width of a flat over that of the overlap of two strands, which it must span."""
+NARROWEST = 0.15
+"""Smallest half-width of a flat over the distance of the nodes."""
 REACH = 2.75
 """Strands whose centres are farther apart than this many strand radii are not neighbours."""
 TIE = 1e-6
@@ -86,6 +96,7 @@ def find_contacts(
     fold: int,
     ring: NDArray[np.float64],
     size: float,
+    flat: float,
 ) -> list[Contact]:
     """All contacts of the strands with each other and with the ring; they repeat after 2 pi / fold.
 
@@ -93,7 +104,8 @@ def find_contacts(
     ----------
     places, traces : of each strand, numbered from the inside and counter-clockwise in each layer
     ring : (N, 2) nodes of the circle about the conductor
-    size : wanted distance of the nodes [m]; flats are two edges wide, one if the strand is meshed coarsely
+    size : wanted distance of the nodes [m]; flats have edges of about that length
+    flat : wanted width of the flats [m]; they come out narrower where contacts are close together, wider where the mesh is coarse
 
     Raises
     ------
@@ -118,17 +130,26 @@ def find_contacts(
     outer = range(len(places) - layers[-1], len(places))
     closed = _closed(orbits, touches, outer, len(places), radius, CLOSED * radius + pressed)
     apart = _least_angle(closed, touches, places, outer, fold)
-    half = min(0.6 * size, HALF_WIDTH * radius, 0.3 * apart * radius)
-    edges = 1 if size > TWO_EDGES * radius else 2
-    contacts = [_ring_contact(b, places[b].phase, ring) for b in outer]
+    widest = min(WIDEST * radius, 0.3 * apart * radius)
+    contacts = [_ring_contact(b, places[b].phase, ring, min(0.5 * flat, widest)) for b in outer]
     for orbit in closed:
         touch = touches[orbit]
+        overlap = overlap_half_width(touch, *(traces[k] for k in orbit[0]))
+        half = min(max(0.5 * flat, NARROWEST * size, overlap), widest)
+        edges = max(1, round(2 * half / size))
         along = np.array([-touch.normal[1], touch.normal[0]])
         nodes = touch.middle + half * np.linspace(-1, 1, edges + 1)[:, None] * along
         for copy, (a, b) in enumerate(orbit):
             image = turned(nodes, 2 * np.pi * copy / fold)
             contacts.append(Contact(a, b, image, touch.gap) if a < b else Contact(b, a, image[::-1], touch.gap))
     return contacts
+
+
+def overlap_half_width(touch: Touch, a: WireTrace, b: WireTrace) -> float:
+    """Half the width [m] over which two traces overlap, with a little room; 0 if they are apart: gap + (k_a + k_b) s^2 / 2 = 0."""
+    if touch.gap >= 0:
+        return 0.0
+    return ROOM * float(np.sqrt(-2 * touch.gap / (a.curvature(touch.on_first) + b.curvature(touch.on_second))))
 
 
 def _orbits(layers: tuple[int, ...], fold: int) -> list[tuple[tuple[int, int], ...]]:
@@ -253,8 +274,13 @@ def _least_angle(
     return least
 
 
-def _ring_contact(strand: int, phase: float, ring: NDArray[np.float64]) -> Contact:
-    """The ring nodes within one step of the phase of a strand: three, or two where the phase falls between nodes."""
-    position = phase * len(ring) / (2 * np.pi)
-    indices = np.arange(int(np.ceil(position - 1 - 1e-6)), int(np.floor(position + 1 + 1e-6)) + 1)
+def _ring_contact(strand: int, phase: float, ring: NDArray[np.float64], half: float) -> Contact:
+    """The ring nodes within about `half` [m] of the phase of a strand: at least three, or two where the phase falls between nodes."""
+    step = 2 * np.pi / len(ring)
+    position, steps = phase / step, half / (step * float(np.linalg.norm(ring[0])))
+    middle = round(2 * position) / 2
+    reach = max(1.0, steps)
+    if abs(position - middle) < 1e-6:
+        reach = max(1, round(steps)) if middle == round(middle) else max(0, round(steps - 0.5)) + 0.5
+    indices = np.arange(int(np.ceil(position - reach - 1e-6)), int(np.floor(position + reach + 1e-6)) + 1)
     return Contact(RING, strand, ring[indices % len(ring)], 0.0)

@@ -92,7 +92,9 @@ def strand_mesh(conductor: Conductor, size: float | None = None) -> CrossSection
     size = DEFAULT_SIZE * radius if size is None else size
     nodes = ring_nodes(conductor, size, conductor.diameter)
     filled = conductor.voids is not None
-    section = conductor_section(conductor.layers, radius, conductor.diameter / 2, rate, nodes, size, conductor.flat_width, filled)
+    section = conductor_section(
+        conductor.layers, radius, conductor.diameter / 2, rate, nodes, size, conductor.flat_width, filled
+    )
     material = Material(f"{strand.name} strand", strand.E, strand.nu, strand.density * strand.lay_factor)
     regions = tuple(
         Region(f"strand {k + 1}", "conductor", material, float(np.pi * radius**2 * np.hypot(1, rate * p.centre_radius)))
