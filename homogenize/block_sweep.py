@@ -41,14 +41,21 @@ class Blocks:
     def rows(self) -> int:
         return len(self.indptr) - 1
 
-    def halves(self) -> list[tuple[int, int]]:
-        """Two ranges of rows with the same number of entries."""
-        return _halves(self.indptr)
-
     def product(self, x: NDArray, sign: int = 1) -> NDArray:
         """A x (or -A x), (rows, m) for x (columns, k)."""
         y = np.empty((self.rows, self.data.shape[1]), dtype=np.result_type(self.data.dtype, x.dtype))
-        share(_product, self.halves(), self.indptr[:-1], self.indptr[1:], self.indices, self.data, x, y, sign, *_units(self.data))
+        share(
+            _product,
+            halves(self.indptr),
+            self.indptr[:-1],
+            self.indptr[1:],
+            self.indices,
+            self.data,
+            x,
+            y,
+            sign,
+            *_units(self.data),
+        )
         return y
 
 
@@ -78,7 +85,7 @@ class Smoother:
         for ranges in self._phases():
             share(_forward, ranges, *entries)
         r = np.empty_like(b)  # (D + L) x = b, what is left is -U x
-        share(_product, _halves(m.indptr), m.after, m.indptr[1:], m.indices, m.data, x, r, -1, *_units(m.data))
+        share(_product, halves(m.indptr), m.after, m.indptr[1:], m.indices, m.data, x, r, -1, *_units(m.data))
         return x, r
 
     def backward(self, b: NDArray, x: NDArray) -> None:
@@ -126,7 +133,8 @@ def three_parts(matrix: sp.bsr_matrix, points: NDArray[np.float64]) -> tuple[NDA
     return np.argsort(part, kind="stable"), (one, two, n)
 
 
-def _halves(indptr: NDArray[np.int32]) -> list[tuple[int, int]]:
+def halves(indptr: NDArray[np.int32]) -> list[tuple[int, int]]:
+    """Two ranges of rows with the same number of entries; one if there are few."""
     n = len(indptr) - 1
     if n < SHARED:
         return [(0, n)]

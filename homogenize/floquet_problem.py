@@ -35,7 +35,9 @@ Progress = Callable[[float, str], None]
 Mesh = SliceMesh | SweptCell
 
 MOMENTS = 1e-2
-"""Tolerance of the moments over that of the shears: shear is loaded by their fields, so that its stiffness errs as they do, not as the square."""
+"""Share of the tolerance for moments that shear follows: its stiffness errs as their fields do, not as the square."""
+SHEARS = 0.05
+"""Share of the tolerance for shear, whose field is large against what is left of it without the moment at each height."""
 ROUNDING = 1e-10
 """Tolerance below which no load is asked for more than the others."""
 
@@ -96,14 +98,21 @@ def solve_group(
         particular += system.jump(mesh.height * bent)
         seam = mesh.height * system.bottom_forces(strains.T @ fields)
         rhs = [-f - s for f, s in zip(M.products(particular), seam, strict=True)]
+        fine = min(tolerance, max(SHEARS * tolerance, ROUNDING))
         shear = particular + np.array(
-            [system.solve(names[len(macro) + j], f, len(macro) + j, len(names), tolerance) for j, f in enumerate(rhs)]
+            [system.solve(names[len(macro) + j], f, len(macro) + j, len(names), fine) for j, f in enumerate(rhs)]
         )
         # macro^H M u_T, by balance: errors of u_T enter with those of the moments only
         mean = (fields.conj() @ M.products(shear).T + parts.conj() @ seam.T) / mesh.height
         compliance = _compliance(M, unit, shear, group.growth, mean)
     return SolvedGroup(
-        names, stiffness, compliance, fields[:, : M.displacements], tuple(system.solutions), system.unknowns, system.multigrid.complexity
+        names,
+        stiffness,
+        compliance,
+        fields[:, : M.displacements],
+        tuple(system.solutions),
+        system.unknowns,
+        system.multigrid.complexity,
     )
 
 
@@ -122,9 +131,7 @@ def _compliance(M: CellOperator, unit: NDArray, shear: NDArray, growth: NDArray,
 class _System:
     """The reduced problem of one group, with its hierarchy."""
 
-    def __init__(
-        self, mesh: Mesh, M: CellOperator, group: LoadGroup, max_iterations: int, tell: Progress
-    ) -> None:
+    def __init__(self, mesh: Mesh, M: CellOperator, group: LoadGroup, max_iterations: int, tell: Progress) -> None:
         self.mesh, self.M, self.tell = mesh, M, tell
         self.max_iterations = max_iterations
         angle = mesh.twist_rate * mesh.height
@@ -195,4 +202,3 @@ class _System:
         out = np.zeros_like(forces)
         out[:, self.mesh.bottom] = forces[:, self.mesh.bottom]
         return self.M.with_pressures(out.reshape(len(fields), -1))
-

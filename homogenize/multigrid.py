@@ -17,6 +17,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from homogenize.block_product import block_product
 from homogenize.block_sweep import Blocks, Smoother, blocks, smoother, three_parts
 from homogenize.energy_gmres import Solution, energy_gmres
 
@@ -83,7 +84,11 @@ class Multigrid:
         """Solve with the matrix alone, until the error in the energy norm is about `tolerance` of the solution."""
         product = blocks(self.matrix).product
         return energy_gmres(
-            lambda x: product(x.reshape(-1, 3)).ravel(), lambda r: (self.precondition(r), r), rhs, tolerance, max_iterations
+            lambda x: product(x.reshape(-1, 3)).ravel(),
+            lambda r: (self.precondition(r), r),
+            rhs,
+            tolerance,
+            max_iterations,
         )
 
     def _cycle(self, number: int, b: NDArray) -> NDArray:
@@ -117,9 +122,9 @@ def _coarsened(
     kind = np.complex64 if np.iscomplexobj(matrix.data) else np.float32
     sweep = smoother(_with_short_indices(matrix.astype(kind)), parts)
     P = _prolongator(matrix, _with_short_indices(tentative), sweep)
-    coarse = _with_short_indices((P.conj().T.tobsr() @ _canonical(matrix @ P)).tobsr(blocksize=(6, 6)))
-    single = P.astype(kind)
-    level = Level(sweep, blocks(single), blocks(_with_short_indices(single.conj().T.tobsr())), order)
+    R = _canonical(P.conj().T.tobsr())
+    coarse = block_product(R, block_product(matrix, P))
+    level = Level(sweep, blocks(P.astype(kind)), blocks(R.astype(kind)), order)
     return level, _canonical(coarse), (aggregates.T @ points) / count[:, None], coarse_modes
 
 
@@ -146,7 +151,7 @@ def _prolongator(matrix: Any, tentative: Any, sweep: Smoother) -> Any:
         x /= np.linalg.norm(x)
         x = np.einsum("ipq,iq->ip", sweep.inverse, sweep.matrix.product(x))
         rho = float(np.linalg.norm(x))
-    moved = _canonical(matrix @ tentative)
+    moved = _canonical(block_product(matrix, tentative))
     row = np.repeat(np.arange(n), np.diff(moved.indptr))
     moved.data = np.matmul(sweep.inverse[row], moved.data) * (-4.0 / 3.0 / (1.05 * rho))
     P = tentative + moved
@@ -158,7 +163,9 @@ def _renumbered(matrix: Any, order: NDArray[np.int64]) -> Any:
     n = len(order)
     if np.array_equal(order, np.arange(n)):
         return matrix
-    number = sp.csr_matrix((np.arange(len(matrix.indices), dtype=np.int32), matrix.indices, matrix.indptr), shape=(n, n))
+    number = sp.csr_matrix(
+        (np.arange(len(matrix.indices), dtype=np.int32), matrix.indices, matrix.indptr), shape=(n, n)
+    )
     number = number[order][:, order]
     number.sort_indices()
     return _canonical(sp.bsr_matrix((matrix.data[number.data], number.indices, number.indptr), shape=matrix.shape))

@@ -61,7 +61,7 @@ def solve_periodic_cell(
     mesh: Mesh,
     *,
     bending: bool = False,
-    tolerance: float = 1e-6,
+    tolerance: float = 3e-4,
     max_iterations: int = 2000,
     progress: Progress | None = None,
 ) -> PeriodicCell:
