@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from beam.benchmark_closed_forms import closed_form_cases
 from beam.benchmark_dynamics import dynamic_cases
 from beam.benchmark_friction import friction_cases
 from beam.benchmark_spin_up import spin_up_cases
@@ -12,4 +13,5 @@ from homogenize.benchmark import Case
 
 def rod_cases() -> tuple[Case, ...]:
     """The cases; run them with :func:`homogenize.benchmark.run_cases`."""
-    return (*static_cases(), *dynamic_cases(), *spin_up_cases(), *friction_cases(), *towing_cases())
+    still = (*static_cases(), *closed_form_cases())
+    return (*still, *dynamic_cases(), *spin_up_cases(), *friction_cases(), *towing_cases())
