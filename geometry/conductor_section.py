@@ -11,8 +11,9 @@ thus reappears beside it. The ring about the conductor is a polygon of N nodes w
 
 .. math::  R_N^2 = R^2 \frac{2\pi/N}{\sin(2\pi/N)} .
 
-The voids between the strands stay empty, or are filled with triangles (strand_void.py). The section is built from the strands of one sector and turned by 2 pi / fold, so
-that it maps on itself node for node; fold is the greatest common divisor of the layers, a single centre strand apart.
+The voids between the strands stay empty, or are filled with triangles (strand_void.py). The section is built from the strands of
+one sector and turned by 2 pi / fold, so that it maps on itself node for node; fold is the greatest common divisor of the layers, a
+single centre strand apart.
 """
 
 from __future__ import annotations
@@ -174,8 +175,8 @@ def conductor_section(
     wanted = 2 * FLAT * strand_radius if flat_width is None else flat_width
     if not 0 < wanted <= 2 * WIDEST * strand_radius:
         raise GeometryError(
-            f"flats between strands of {2e3 * strand_radius:.4g} mm cannot be {1e3 * wanted:.4g} mm wide: state a width above zero and up to "
-            f"{2e3 * WIDEST * strand_radius:.3g} mm."
+            f"flats between strands of {2e3 * strand_radius:.4g} mm cannot be {1e3 * wanted:.4g} mm wide: state a width above zero "
+            f"and up to {2e3 * WIDEST * strand_radius:.3g} mm."
         )
     ring = _ring(conductor_radius, ring_nodes)
     if sum(layers) == 1:
@@ -275,7 +276,7 @@ def _fitting_outlines(
     size: float,
     flat: float,
 ) -> tuple[list[Contact], dict[int, StrandOutline], float]:
-    """Contacts, outlines of the strands of one sector, with finer edges where coarse ones run into each other, and the length of the edges."""
+    """Contacts, outlines of the strands of one sector, with finer edges where coarse ones run into each other, and their length."""
     fold = section_fold(layers, len(ring))
     size = min(size, COARSEST * traces[0].radius)
     for finer in FINER:
