@@ -3,7 +3,8 @@ r"""One load step of interfaces that slip and open: Signorini's conditions and C
 With the jumps x = (slips, openings), S x + A y the force that the interface must put on them, and old jumps of the step before,
 
 .. math::
-   0 \le g = x_n + g_0 \;\perp\; f_n \ge 0, \qquad |f_t| \le c, \qquad f_t = -c\, \Delta x_t / |\Delta x_t| \ \text{where}\ \Delta x_t \ne 0 ,
+   0 \le g = x_n + g_0 \;\perp\; f_n \ge 0, \qquad |f_t| \le c, \qquad
+   f_t = -c\, \Delta x_t / |\Delta x_t| \ \text{where}\ \Delta x_t \ne 0 ,
 
 with c = mu f_n where the parts can part (f_n the contact force of this very step), and c given where they cannot. Stick, slip and
 separation are exact, there is no penalty. With c given this is the minimum of a convex energy plus the heat; with c = mu f_n
@@ -16,8 +17,8 @@ then the laws at every node, all at once, as projections P of v = z + u:
 .. math::
    z = P(v), \qquad (S + \rho L)\, d = \rho L (z - u) - r, \qquad v \leftarrow v + \alpha (d - z) ,
 
-z_n = max(v_n, -g), z_t = v_t max(0, 1 - c / (rho L |v_t|)); -rho L u = -rho L (v - z) is the contact force, r the force at the old jumps, L a
-bound of S. The springs are an aid of the iteration: at its end d = z. rho is small because slips at full friction are
+z_n = max(v_n, -g), z_t = v_t max(0, 1 - c / (rho L |v_t|)); -rho L u = -rho L (v - z) is the contact force, r the force at the old jumps, L
+a bound of S. The springs are an aid of the iteration: at its end d = z. rho is small because slips at full friction are
 governed by soft, long-ranged motions (whole parts that slide), which the elastic step takes exactly. Boyd, Parikh, Chu, Peleato,
 Eckstein, Found. Trends Mach. Learn. 3 (2011) 1-122, doi 10.1561/2200000016. The map v -> v is sped up by Anderson's extrapolation of
 the last few steps, given up for a plain step where the residual grows: Walker, Ni, SIAM J. Numer. Anal. 49 (2011) 1715-1735,

@@ -5,13 +5,13 @@ A load path is followed step by step (:mod:`homogenize.contact_step`); each step
 .. math::  F = C e + A^H x, \qquad \Delta D = \sum_i c_i\, |\Delta s_i|, \qquad \oint F\, de = \oint \Delta D
 
 (per length, mean over the pitch; the last for a closed loop). Each component of the path is a strain, or the force in its place: then the
-strain is part of the same problem (:func:`homogenize.interface_condensation.force_driven`), solved as exactly. The first slope is that of the
-bonded section, the last that of the section without friction. With constant grip an unloading branch is the first
+strain is part of the same problem (:func:`homogenize.interface_condensation.force_driven`), solved as exactly. The first slope is that of
+the bonded section, the last that of the section without friction. With constant grip an unloading branch is the first
 loading twice as large (Masing): friction has to be turned round from -c to c. This is exact where the tractions keep their lines,
 and a rule of thumb (1e-3 in bending) where they turn.
 
-The pressure p that rubs is, where parts stay closed, a given grip, or a grip that grows with the tension of the step, p = p_0 + p_1 N >= 0; where
-they can part it is the contact pressure of the step itself, a given grip included.
+The pressure p that rubs is, where parts stay closed, a given grip, or a grip that grows with the tension of the step, p = p_0 + p_1 N >= 0;
+where they can part it is the contact pressure of the step itself, a given grip included.
 """
 
 from __future__ import annotations
@@ -232,7 +232,9 @@ class _Follower:
         now, before = y - self.last.y, self.last.y - getattr(self, "previous", self.last.y)
         self.previous = self.last.y
         same = float(before @ now)
-        return (self.last.jumps - self.last.before) * same / float(before @ before) if same > 0 else 0.0 * self.last.jumps
+        return (
+            (self.last.jumps - self.last.before) * same / float(before @ before) if same > 0 else 0.0 * self.last.jumps
+        )
 
 
 def _loop(section: RubbingSection, strain: FloatArray, force: FloatArray, steps: list[_Step]) -> FrictionLoop:
@@ -252,7 +254,17 @@ def _loop(section: RubbingSection, strain: FloatArray, force: FloatArray, steps:
     length = np.linalg.norm(moved, axis=-1)
     heat = np.cumsum((length[:, :, rubs] * caps).sum(axis=(1, 2)) / j)
     return FrictionLoop(
-        section, strain, force, slip, traction, length > 0, gap, pressure, heat, cap, np.array([s.iterations for s in steps])
+        section,
+        strain,
+        force,
+        slip,
+        traction,
+        length > 0,
+        gap,
+        pressure,
+        heat,
+        cap,
+        np.array([s.iterations for s in steps]),
     )
 
 

@@ -6,11 +6,12 @@ Bending about a fixed axis: in the turning frame the curvature (kappa_x, kappa_y
 and the slips vary along the pitch. Stiffness does not couple the harmonics exp(i k tau_0 z); friction and contact, local at every station
 along the pitch, do.
 
-* Closed interfaces (:func:`bending_friction`). Half a pitch on, the curvature is reversed in the turning frame; with a grip that is the same at
-  all z, so are the slips, and only the odd harmonics k = 1, 3, .. 2 K - 1 appear, on 2 K stations along half a pitch. The grip is that of the
-  axial load (or given) and is not changed by bending; tangential tractions that the axial load itself leaves on the interfaces are not in the cone.
-* Interfaces that open (:func:`contact_section`). Parts open on one side of the bend and press on the other: all harmonics 0 .. K on 2 K + 1
-  stations, and stretch and twist go with the curvature, so that a tension, its pressures and its friction are in the same problem.
+* Closed interfaces (:func:`bending_friction`). Half a pitch on, the curvature is reversed in the turning frame; with a grip that is the
+  same at all z, so are the slips, and only the odd harmonics k = 1, 3, .. 2 K - 1 appear, on 2 K stations along half a pitch. The grip is
+  that of the axial load (or given) and is not changed by bending; tangential tractions that the axial load itself leaves on the
+  interfaces are not in the cone.
+* Interfaces that open (:func:`contact_section`). Parts open on one side of the bend and press on the other: all harmonics 0 .. K on
+  2 K + 1 stations, and stretch and twist go with the curvature, so that a tension, its pressures and its friction are in the same problem.
 
 Layered strands in bending, for comparison: Papailiou, J. Eng. Mech. 123 (1997) 570-579 and IEEE Trans. Power Deliv. 12 (1997)
 1576-1588, doi 10.1109/61.634178.
@@ -146,8 +147,11 @@ def axial_friction(
     """
     _refuse_without_friction(interfaces)
     section = _condensed(mesh, interfaces, (0,), progress)
-    if not free_twist:
-        return section
+    return free_to_turn(section) if free_twist else section
+
+
+def free_to_turn(section: RubbingSection) -> RubbingSection:
+    """A section of (stretch, twist) with the stretch alone: no torque, and the twist follows."""
     released = InterfaceOperator((without_torque(section.operator.harmonics[0]),), section.operator.rubbing)
     return replace(section, operator=released, strains=("stretch",), forces=("N",))
 
