@@ -87,7 +87,7 @@ def test_ring_contact_is_as_wide_as_its_nodes_allow():
 
 @pytest.mark.parametrize("width", [0.0, -1e-4, 1e-3, float("nan")])
 def test_impossible_widths(width):
-    with pytest.raises(GeometryError, match="cannot be .* mm wide: state a width above zero and up to 0.9 mm"):
+    with pytest.raises(GeometryError, match=r"cannot be .* mm wide: state a width above zero and up to 0\.9 mm"):
         conductor_section(*LONG_LAY, 48, flat_width=width)
 
 
