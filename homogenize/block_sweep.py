@@ -4,10 +4,10 @@ A sweep visits the rows one after the other,
 
 .. math::  x_i \leftarrow D_i^{-1} \Big( b_i - \sum_{j \ne i} A_{ij} x_j \Big) ,
 
-so that rows may be visited at the same time only if no entry joins them. The nodes are therefore numbered in three parts: two halves of the
-body, and last the nodes of the first half that touch the second. The halves are swept at once, the seam between them after (before, on the way
-back): the same numbers as on one thread, and the backward sweep is exactly the adjoint of the forward one. (Nested dissection of one level:
-George, SIAM J. Numer. Anal. 10 (1973) 345-363, doi 10.1137/0710032.)
+so that rows may be visited at the same time only if no entry joins them. The nodes are therefore numbered in three parts: two
+halves of the body, and last the nodes of the first half that touch the second. The halves are swept at once, the seam between
+them after (before, on the way back): the same numbers as on one thread, and the backward sweep is exactly the adjoint of the
+forward one. (Nested dissection of one level: George, SIAM J. Numer. Anal. 10 (1973) 345-363, doi 10.1137/0710032.)
 """
 
 from __future__ import annotations

@@ -7,6 +7,8 @@ real, and the energy of u where p is the pressure of u (:mod:`homogenize.element
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,7 +24,7 @@ class CellOperator:
     def __init__(self, mesh: SliceMesh | SweptCell) -> None:
         self.mesh = mesh
         self.lame = limited_lame(mesh)
-        self.stiffness = stiffness_matrix(mesh, self.lame)
+        self.stiffness: Any = stiffness_matrix(mesh, self.lame)
         self.pressure = element_pressure(mesh)
         self.displacements = self.stiffness.shape[0]
         self.size = self.displacements + (0 if self.pressure is None else len(self.pressure.elements))

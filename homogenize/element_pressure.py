@@ -1,14 +1,16 @@
-r"""Pressures of nearly incompressible elements as unknowns of their own, so that the solver does not feel how near to incompressible they are.
+r"""Pressures of nearly incompressible elements as unknowns of their own: the solver does not feel how near they are.
 
 Where lambda is large against G, all of it but G becomes a pressure p, constant in the element:
 
-.. math::  A = \int 2 G\, \varepsilon : \varepsilon + \frac{\min(\lambda, G)}{V} b\, b^T , \qquad B u - C p = 0 , \qquad
-   C = \frac{V}{\lambda - G} + \frac{\beta}{2} \sum_{faces} \Big( \frac{V_i}{G_i} + \frac{V_j}{G_j} \Big) (p_i - p_j)^2 .
+.. math::  A = \int 2 G\, \varepsilon : \varepsilon + \frac{\min(\lambda, G)}{V} b\, b^T , \qquad B u - C p = 0 ,
 
-Eliminating p without the sum over faces gives the brick of :mod:`homogenize.mean_dilatation` back. The sum over the faces between
-elements of one region holds the chequerboards that this brick hardly resists (Silvester, Kechkar, Comput. Methods Appl. Mech. Eng. 79 (1990) 71-86,
-doi 10.1016/0045-7825(90)90095-4); it vanishes with the mesh size and leaves constant pressures exact. No face across the seam of the cell is joined, so
-that pressures belong to one cell.
+.. math::  p^T C p = \sum_e \frac{V}{\lambda - G} p_e^2
+   + \frac{\beta}{2} \sum_{faces} \Big( \frac{V_i}{G_i} + \frac{V_j}{G_j} \Big) (p_i - p_j)^2 .
+
+Eliminating p without the sum over faces gives the brick of :mod:`homogenize.mean_dilatation` back. The sum over the faces
+between elements of one region holds the chequerboards that this brick hardly resists (Silvester, Kechkar, Comput. Methods Appl.
+Mech. Eng. 79 (1990) 71-86, doi 10.1016/0045-7825(90)90095-4); it vanishes with the mesh size and leaves constant pressures
+exact. No face across the seam of the cell is joined, so that pressures belong to one cell.
 
 The energy of a displacement and its pressures is the value of the Lagrangian u^H A u + 2 Re p^H B u - p^H C p, stationary in both.
 """
@@ -103,7 +105,14 @@ def element_pressure(mesh: SliceMesh | SweptCell) -> ElementPressure | None:
     C = sp.coo_matrix((entries, (rows, columns)), shape=(k, k)).tocsr()
     schur = volume / ((2.0 + LAME_LIMIT) * G) + C.diagonal()
     return ElementPressure(
-        elements, blocks(B), blocks(B.T.tobsr()), blocks(C.tobsr((1, 1))), schur, compliance, joined, weight
+        elements,
+        blocks(B),
+        blocks(B.T.tobsr()),
+        blocks(sp.bsr_matrix(C, blocksize=(1, 1))),
+        schur,
+        compliance,
+        joined,
+        weight,
     )
 
 

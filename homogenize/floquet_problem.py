@@ -158,8 +158,8 @@ class _System:
                     begin + 0.8 * done / total, f"solving {name}: residual {residual:.0e} after {count} iterations"
                 )
 
-        rhs = self._shared(load.astype(self.motion.dtype))
-        found = energy_gmres(self._product, self._precondition, rhs, tolerance, self.max_iterations, watch)
+        rhs = self._triangular(self._shared(load.astype(self.motion.dtype)))
+        found = energy_gmres(self._product, self._inverse, rhs, tolerance, self.max_iterations, watch)
         if not found.residual <= 10 * tolerance:
             raise ConvergenceError(
                 f"the {name} problem of the cell stopped at a relative residual of {found.residual:.1e} after {found.iterations} "
@@ -178,16 +178,21 @@ class _System:
         return np.concatenate([self.RH @ f[:n], f[n:]])
 
     def _product(self, x: NDArray) -> NDArray:
-        return self._shared(self.M.product(self._spread(x)))
+        return self._triangular(self._shared(self.M.product(self._spread(x))))
 
-    def _precondition(self, r: NDArray) -> tuple[NDArray, NDArray]:
-        """Block-triangular: pressures, then displacements under what the pressures leave of the load; and the image under H."""
+    def _triangular(self, r: NDArray) -> NDArray:
+        """L r: what the pressures leave of the forces, and minus the volume changes."""
         n, pressure = self.unknowns, self.M.pressure
         if pressure is None:
-            return self.multigrid.precondition(r), r
+            return r
         p = -r[n:] / pressure.schur
-        force = r[:n] - self.RH @ pressure.transposed.product(p[:, None]).ravel()
-        return np.concatenate([self.multigrid.precondition(force), p]), np.concatenate([force, -r[n:]])
+        return np.concatenate([r[:n] - self.RH @ pressure.transposed.product(p[:, None]).ravel(), -r[n:]])
+
+    def _inverse(self, h: NDArray) -> NDArray:
+        """H^-1 h: a multigrid cycle for the displacements, the diagonal for the pressures."""
+        n, pressure = self.unknowns, self.M.pressure
+        u = self.multigrid.precondition(h[:n])
+        return u if pressure is None else np.concatenate([u, h[n:] / pressure.schur])
 
     def jump(self, fields: NDArray) -> NDArray:
         """Fields (k, size) that are zero but on the top, where they are what is carried there from the bottom."""

@@ -1,7 +1,7 @@
 r"""Smoothed aggregation for elastic solids in 3x3 blocks, real or complex Hermitian: one V-cycle, to precondition with.
 
-The hierarchy is built from the six rigid-body modes (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196, doi 10.1007/BF02238511): aggregates
-of strongly joined nodes, the rigid motions of each as its coarse unknowns T, and the prolongator
+The hierarchy is built from the six rigid-body modes (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196, doi
+10.1007/BF02238511): aggregates of strongly joined nodes, the rigid motions of each as its coarse unknowns T, and the prolongator
 
 .. math::  P = \big( I - \tfrac{4}{3\rho} D^{-1} A \big) T, \qquad \rho = \rho(D^{-1} A) .
 
