@@ -161,10 +161,12 @@ def compare(layers: int, nu: float, times: int) -> None:
         except RuntimeError as error:
             print(f"{start} no result: {' '.join(str(error).split())[-160:]} |", flush=True)
             continue
-        own = own or r
-        numbers = f"{r.force:.3f} | {r.force / own.force - 1:.1e} | {r.iterations or '-'}"
-        times_ = f"{r.wall:.1f} | {r.cpu:.1f} | {r.memory:.2f} | {r.wall / own.wall:.2f} | {r.cpu / own.cpu:.2f}"
-        print(f"{start} {numbers} | {times_} |", flush=True)
+        own = r if name == "ours" else own
+        off, wall, cpu = "-", "-", "-"
+        if own is not None:
+            off, wall, cpu = f"{r.force / own.force - 1:.1e}", f"{r.wall / own.wall:.2f}", f"{r.cpu / own.cpu:.2f}"
+        numbers = f"{r.force:.3f} | {off} | {r.iterations or '-'} | {r.wall:.1f} | {r.cpu:.1f} | {r.memory:.2f}"
+        print(f"{start} {numbers} | {wall} | {cpu} |", flush=True)
 
 
 def main() -> None:
