@@ -84,11 +84,7 @@ class Multigrid:
         """Solve with the matrix alone, until the error in the energy norm is about `tolerance` of the solution."""
         product = blocks(self.matrix).product
         return energy_gmres(
-            lambda x: product(x.reshape(-1, 3)).ravel(),
-            lambda r: (self.precondition(r), r),
-            rhs,
-            tolerance,
-            max_iterations,
+            lambda x: product(x.reshape(-1, 3)).ravel(), self.precondition, rhs, tolerance, max_iterations
         )
 
     def _cycle(self, number: int, b: NDArray) -> NDArray:
