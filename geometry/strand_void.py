@@ -54,8 +54,9 @@ def fill_voids(
         loop = next(iter(left.values()))
         angle = 2 * np.pi * np.arange(fold) / fold
         turned = [points[loop] @ np.array([[np.cos(a), np.sin(a)], [-np.sin(a), np.cos(a)]]) for a in angle]
-        distance, images = tree.query(np.array(turned))
-        if distance.max() > 1e-6 * scale:
+        distance, found_nodes = tree.query(np.array(turned))
+        images = np.asarray(found_nodes, dtype=np.int64)
+        if np.max(distance) > 1e-6 * scale:
             raise MeshError(f"the voids of a conductor do not repeat {fold} times a turn: the strands do not, either.")
         if fold > 1 and frozenset(images[1].tolist()) == frozenset(loop.tolist()):
             centre = len(points)
@@ -65,7 +66,7 @@ def fill_voids(
             continue
         cut = best_triangles(points[loop])
         for image in images:
-            triangles.append(np.asarray(image, dtype=np.int64)[cut])
+            triangles.append(image[cut])
             del left[frozenset(image.tolist())]
     found = np.concatenate(triangles) if triangles else np.empty((0, 3), dtype=np.int64)
     if len(found) and not block_quality(points, found, "triangle").min() > 0:
