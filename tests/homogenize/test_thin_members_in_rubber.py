@@ -41,3 +41,13 @@ def test_members_keep_their_sum():
         EA = axial_stiffness(thin_members(straight, n))[0]
         assert EA == pytest.approx(26.8e6 + 8e6 * np.pi * 34e-3**2, rel=5e-3)  # their own rubber, and nu's mismatch
         assert np.count_nonzero(mesh.region_of == 1) == 2 * n
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.45, 0.499])
+def test_rubber_outside_is_a_thick_tube(nu):
+    """Pressure per lateral strain: 2 (l + m) of the disc, and the thick tube's E (R^2 - r^2) / ((1 + nu) ((1 - 2 nu) r^2 + R^2)) (Lame)."""
+    r, R, rubber = 16e-3, 34e-3, Material("rubber", 8e6, nu, 1000.0)
+    disc = 2 * (rubber.lame + rubber.G)
+    tube = 8e6 * (R**2 - r**2) / ((1 + nu) * ((1 - 2 * nu) * r**2 + R**2))
+    W = RubberRing(0.0, r, 0.2, rubber, R)._hessian()
+    assert W[1, 1] == pytest.approx(2 * np.pi * r**2 * (disc + tube), rel=1e-10)
