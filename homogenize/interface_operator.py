@@ -129,7 +129,7 @@ class InterfaceOperator:
             for h, C in zip(self.harmonics, blocks, strict=True)
             if C.size
         ]
-        return scipy.linalg.block_diag(*parts)
+        return np.asarray(scipy.linalg.block_diag(*parts), dtype=float)
 
     def _bound(self) -> FloatArray:
         """L (u,): a multiple of the largest diagonal of every node, so that diag(L) - S_k >= 0 for each k."""

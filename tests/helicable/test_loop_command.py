@@ -229,7 +229,7 @@ def test_a_gap_must_close_first(tmp_path):
     arguments = ("--interface", "conductor-insulation=opening:5 mm+coulomb:0.3", "--grip", "0 Pa", "--size", "4 mm")
     record = run(tmp_path, "--load", "torsion", "--amplitude", "1 deg/m", "--steps", "10", *arguments)
     assert record["slopes"]["last_step"] == pytest.approx(record["slopes"]["open"], rel=1e-6)
-    assert min(record["loop"]["open_share"]) > 0.999 and record["dissipated"] == 0
+    assert min(record["loop"]["open_share"]) > 0.999 and record["dissipated"] < 1e-12
 
 
 def test_given_force_returns_the_loop_of_the_given_strain(tmp_path, tension):
@@ -246,7 +246,19 @@ def test_given_force_returns_the_loop_of_the_given_strain(tmp_path, tension):
 
 def test_grip_follows_the_tension(tmp_path):
     """Under tension the conductors are gripped and the bonded slope lasts longer than on the way back under compression."""
-    arguments = ("--load", "tension", "--amplitude", "0.002", "--steps", "10", "--grip", "1 kPa", "--free-twist", "--size", "4 mm")
+    arguments = (
+        "--load",
+        "tension",
+        "--amplitude",
+        "0.002",
+        "--steps",
+        "10",
+        "--grip",
+        "1 kPa",
+        "--free-twist",
+        "--size",
+        "4 mm",
+    )
     loose, gripped = run(tmp_path / "a", *arguments), run(tmp_path / "b", *arguments, "--tension-grips")
     assert gripped["mean_grip"] > loose["mean_grip"] == pytest.approx(1e3)
     assert gripped["peak_force"] > loose["peak_force"] * 1.001
