@@ -11,7 +11,8 @@ a rigid motion, and balance of the forces across the seam reads
 .. math:: R^H K u_T = -H\, (K u_M)_{bottom}\, M' .
 
 The compliance of shear is the energy of u_T - u_M M(z), what is left when the field of the moment that acts at each height is taken
-off, per length and averaged over the cell: the definition of :mod:`homogenize.helical_cell`.
+off, per length and averaged over the cell: the definition of :mod:`homogenize.helical_cell`. Near-incompressible elements carry
+pressures beside u (:mod:`homogenize.element_pressure`); K then stands for the matrix of both.
 """
 
 from __future__ import annotations
