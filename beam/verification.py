@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from beam.benchmark_closed_forms import closed_form_cases
 from beam.benchmark_dynamics import dynamic_cases
 from beam.benchmark_friction import friction_cases
+from beam.benchmark_spin_up import spin_up_cases
 from beam.benchmark_statics import static_cases
 from beam.benchmark_towing import towing_cases
 from homogenize.benchmark import Case
@@ -11,4 +13,5 @@ from homogenize.benchmark import Case
 
 def rod_cases() -> tuple[Case, ...]:
     """The cases; run them with :func:`homogenize.benchmark.run_cases`."""
-    return (*static_cases(), *dynamic_cases(), *friction_cases(), *towing_cases())
+    still = (*static_cases(), *closed_form_cases())
+    return (*still, *dynamic_cases(), *spin_up_cases(), *friction_cases(), *towing_cases())

@@ -1,14 +1,14 @@
-"""The three-dimensional cell: time, memory and iterations against size, contrast and Poisson's ratio; CalculiX on the same mesh.
+"""The three-dimensional cell: time, memory and iterations against size, contrast and Poisson's ratio.
 
 Read ratios and iterations; seconds depend on the machine and its load. Tables:
 
 1. assembly of the reference cable's slice, time per element;
 2. iterations of tension, torsion, bending and shear over the number of layers, and the time of all of them;
 3. iterations over contrast and Poisson's ratio on one slice;
-4. the same clamped slice by CalculiX (skipped with a sentence where `ccx` is not installed): force and ratio of times;
-5. with the argument `nested`: all strands of the reference cable, 320 000 hexahedra.
+4. with the argument `nested`: all strands of the reference cable, 320 000 hexahedra.
 
-Run: python -m benchmarks.cell_3d [nested]. The last results are in benchmarks/cell_3d.md.
+Run: python -m benchmarks.cell_3d [nested]. The last results are in benchmarks/cell_3d.md; other programs on the same mesh:
+benchmarks/peers.md.
 """
 
 from __future__ import annotations
@@ -19,15 +19,12 @@ import time
 from dataclasses import replace
 
 import numpy as np
-import scipy.sparse as sp
 
-from benchmarks.calculix_deck import axial_force, find_calculix
 from geometry import cross_section_mesh, helical_slice, read_cable
 from geometry.cell_mesh import SliceMesh
 from geometry.material import Material
 from homogenize import solve_periodic_cell, strand_stiffness
 from homogenize.mean_dilatation import stiffness_matrix
-from homogenize.multigrid import Multigrid
 
 CABLE = "mcpt-1.9-3.3-3x35"
 
@@ -46,12 +43,6 @@ def with_materials(mesh: SliceMesh, nu: float, contrast: float) -> SliceMesh:
     return replace(mesh, regions=regions)
 
 
-def without_lateral_strain(mesh: SliceMesh) -> SliceMesh:
-    """Poisson's ratio 0 in all parts: mean dilatation then changes nothing, and both programs have the same element."""
-    regions = tuple(replace(r, material=replace(r.material, nu=0.0)) for r in mesh.regions)
-    return replace(mesh, regions=regions)
-
-
 def assembly() -> None:
     """Table 1."""
     print("\n1. Assembly\n\n| bricks | unknowns | wall s | microseconds a brick |\n|---|---|---|---|")
@@ -66,7 +57,7 @@ def assembly() -> None:
 def heights() -> None:
     """Table 2."""
     print(
-        "\n2. All loads, tolerance 1e-6\n\n| layers | unknowns | iterations | complexity | wall s | CPU s |\n|---|---|---|---|---|---|"
+        "\n2. All loads, default tolerance\n\n| layers | unknowns | iterations | complexity | wall s | CPU s |\n|---|---|---|---|---|---|"
     )
     for layers in (1, 2, 4):
         report(str(layers), slice_of(layers))
@@ -92,47 +83,8 @@ def report(name: str, mesh: SliceMesh) -> None:
     print(f"| {name} | {cell.unknowns} | {counts} | {cell.complexity:.2f} | {wall:.1f} | {cpu:.1f} |", flush=True)
 
 
-def clamped_force(mesh: SliceMesh, stretch: float) -> float:
-    """Axial force of the slice with both end faces clamped, by our elements and solver."""
-    K = stiffness_matrix(mesh)
-    u = np.zeros((len(mesh.points), 3))
-    u[mesh.top, 2] = stretch * mesh.height
-    free = np.setdiff1d(np.arange(len(mesh.points)), np.concatenate([mesh.bottom, mesh.top]))
-    unknowns = (3 * free[:, None] + np.arange(3)).ravel()
-    inner = sp.bsr_array(K.tocsr()[unknowns][:, unknowns], blocksize=(3, 3))
-    found = Multigrid(inner, mesh.points[free], np.inf).solve(-(K @ u.ravel())[unknowns], 1e-8, 1000)
-    u.ravel()[unknowns] = found.unknowns
-    return float((K @ u.ravel()).reshape(-1, 3)[mesh.top, 2].sum())
-
-
-def peer() -> None:
-    """Table 4."""
-    print("\n4. CalculiX, both ends clamped, stretch 1e-3")
-    if find_calculix() is None:
-        print("\nccx is not installed here; the comparison is left out.")
-        return
-    print(
-        "\n| Poisson's ratio of rubber | bricks | unknowns | force N | CalculiX N | difference | s | CalculiX s | ratio |\n"
-        + "|---" * 9
-        + "|"
-    )
-    mesh = slice_of(3)
-    for nu in (0.0, 0.3, 0.49):
-        case = with_materials(mesh, nu, 16000.0) if nu else without_lateral_strain(mesh)
-        start = time.perf_counter()
-        ours = clamped_force(case, 1e-3)
-        seconds = time.perf_counter() - start
-        theirs, their_seconds = axial_force(case, 1e-3)
-        unknowns = 3 * (len(case.points) - len(case.bottom) - len(case.top))
-        print(
-            f"| {nu} | {len(case.cells)} | {unknowns} | {ours:.4f} | {theirs:.4f} | {theirs / ours - 1:.1e} "
-            f"| {seconds:.1f} | {their_seconds:.1f} | {their_seconds / seconds:.2f} |",
-            flush=True,
-        )
-
-
 def nested() -> None:
-    """Table 5."""
+    """Table 4."""
     start = time.perf_counter(), time.process_time()
     cell = strand_stiffness(
         read_cable(CABLE), elements=320_000, bending=True, progress=lambda f, s: print(f"{f:.2f} {s}", flush=True)
@@ -149,7 +101,6 @@ def main() -> None:
         nested()
     else:
         assembly()
-        peer()
         heights()
         contrasts()
     print(f"\npeak memory of the process {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6:.2f} GB")

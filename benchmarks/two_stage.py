@@ -7,8 +7,8 @@ Three tables:
 3. with --resolved, the whole cable: route and single cylinders, conductors bonded in their insulation and sliding, against the
    three-dimensional cell of all strands (about 800 000 unknowns).
 
-Run: python -m benchmarks.two_stage [--resolved] (a minute; with --resolved half an hour and 8 GB). The last results are in
-docs/section-stiffness.md.
+Run: python -m benchmarks.two_stage [--resolved] (half a minute of CPU; with --resolved six). The last results are in
+benchmarks/two_stage.md, what they mean in docs/section-stiffness.md.
 """
 
 from __future__ import annotations

@@ -15,6 +15,7 @@ from geometry.helix import HANDS
 from geometry.lay_up import Layer, Round, check_names, lay_up, ring_part
 from geometry.material import Material
 from geometry.strand import Conductor, Strand, stranded_conductor
+from geometry.strand_contact import WIDEST
 from geometry.wire_layer import WireLayer, check_layer, layer_parts
 
 T = TypeVar("T")
@@ -57,7 +58,7 @@ def assembled(table: CableTable) -> Cable:
     """
     materials = {name: Material(name, _si(m.E), _si(m.nu), _si(m.density)) for name, m in table.materials.items()}
     strands = {name: _strand(name, s) for name, s in table.strands.items()}
-    conductors = {name: _conductor(name, c, strands) for name, c in table.conductors.items()}
+    conductors = {name: _conductor(name, c, strands, materials) for name, c in table.conductors.items()}
     cores = {name: _core(name, core, conductors, materials) for name, core in table.cores.items()}
     spec = table.lay_up
     lay, hand = _maybe(spec.lay), spec.hand
@@ -169,10 +170,20 @@ def _strand(name: str, spec: StrandTable) -> Strand:
     )
 
 
-def _conductor(name: str, spec: StrandedTable | CylinderTable, strands: Mapping[str, Strand]) -> Conductor:
+def _conductor(
+    name: str, spec: StrandedTable | CylinderTable, strands: Mapping[str, Strand], materials: Mapping[str, Material]
+) -> Conductor:
     if isinstance(spec, StrandedTable):
         strand = _named(strands, spec.strand, f"conductors.{name}.strand", "strands")
-        return stranded_conductor(name, strand, _ints(spec.layers), _maybe(spec.lay), spec.hand, _maybe(spec.diameter))
+        voids = None if spec.voids is None else _named(materials, spec.voids, f"conductors.{name}.voids", "materials")
+        layers, widest = _ints(spec.layers), WIDEST * strand.diameter
+        flat = _maybe(spec.flat_width)
+        if flat is not None and flat > widest:
+            raise SpecError(
+                f"conductors.{name}.flat_width: flats between strands of {1e3 * strand.diameter:.4g} mm cannot be {1e3 * flat:.4g} mm "
+                f"wide; state at most {1e3 * widest:.3g} mm."
+            )
+        return stranded_conductor(name, strand, layers, _maybe(spec.lay), spec.hand, _maybe(spec.diameter), flat, voids)
     metal = sum(_ints(spec.wires)) * np.pi * _si(spec.wire_diameter) ** 2 / 4
     if _si(spec.fill) <= 0:
         raise SpecError(f"conductors.{name}.fill: the fill must be larger than zero.")

@@ -126,6 +126,8 @@ class StrandedTable(_Table):
     lay: Length | None = None
     hand: Literal["Z", "S"] = "Z"
     diameter: Length | None = None
+    flat_width: Length | None = None
+    voids: Name | None = None
 
 
 class CylinderTable(_Table):

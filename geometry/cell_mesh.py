@@ -126,6 +126,7 @@ class SweptCell:
     blocks : one for each kind of cell, hexahedra first
     regions : `closed_form_area` is the exact volume over `height` [m^2]
     bottom, top : (b,) matching node numbers
+    notes : sentences on what the mesh could and could not do as asked
     """
 
     points: NDArray[np.float64]
@@ -135,6 +136,7 @@ class SweptCell:
     height: float
     bottom: NDArray[np.int64]
     top: NDArray[np.int64]
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.blocks:

@@ -5,21 +5,22 @@ A strand of radius rho about the helix of radius r appears as the exact trace of
 .. math::  A = \pi \rho^2 / \cos\beta_2, \qquad \beta_2 = \arctan(\omega r),
 
 omega the turn rate of the strands. Strands touch along lines, which a mesh that holds together cannot show: they share narrow
-flats instead (strand_contact.py), two edges wide, and the outermost share edges with the circle about the conductor. The rest
+flats of a stated width instead (strand_contact.py), and the outermost share edges with the circle about the conductor. The rest
 of the outline follows the trace, moved outwards evenly until the polygon has the area A exactly; metal that a flat takes away
 thus reappears beside it. The ring about the conductor is a polygon of N nodes with the area of its circle,
 
 .. math::  R_N^2 = R^2 \frac{2\pi/N}{\sin(2\pi/N)} .
 
-The voids between the strands stay empty. The section is built from the strands of one sector and turned by 2 pi / fold, so
-that it maps on itself node for node; fold is the greatest common divisor of the layers, a single centre strand apart.
+The voids between the strands stay empty, or are filled with triangles (strand_void.py). The section is built from the strands of
+one sector and turned by 2 pi / fold, so that it maps on itself node for node; fold is the greatest common divisor of the layers, a
+single centre strand apart.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +28,20 @@ from numpy.typing import NDArray
 from geometry.disc_grid import disc_grid, node_multiple
 from geometry.errors import GeometryError, MeshError
 from geometry.strand import layer_radii
-from geometry.strand_contact import REACH, RING, Contact, StrandPlace, centre_of, find_contacts, turned
+from geometry.strand_contact import (
+    FLAT,
+    NARROWEST,
+    REACH,
+    RING,
+    WIDEST,
+    Contact,
+    StrandPlace,
+    centre_of,
+    find_contacts,
+    turned,
+)
 from geometry.strand_outline import StrandOutline, run_into, strand_outline
+from geometry.strand_void import fill_voids
 from geometry.wire_trace import WireTrace
 
 MISFIT = 0.03
@@ -37,6 +50,8 @@ PATCH = 0.8
 """Longest distance of ring nodes over the strand radius: longer ones stand off the strand by a fifth of its radius."""
 COARSEST = 0.6
 """Largest distance of the nodes on a strand over its radius."""
+FLAT_MISFIT = 0.01
+"""Largest difference of a flat's width from the one that was asked for that is not told."""
 FINER = (1.0, 0.7, 0.5)
 """Fractions of the wanted distance that are tried in turn until the outlines are clear of each other."""
 
@@ -57,6 +72,10 @@ class ConductorSection:
     conductor_radius : R [m]
     strand_scale : conductor radius over the radius over its strands; the pattern was scaled by it, the areas were not
     closed_gap : widest gap [m] between two traces that was closed to a contact; negative if all of them overlap
+    flat_width : width [m] of the flats that strands share; 0 for a single strand
+    flat_wanted : the width that was asked for, or follows from the strand radius [m]
+    edge : distance of the nodes on a strand [m]
+    void_cells : (t, 3) triangles in the voids, counter-clockwise; none if they are empty
     """
 
     points: NDArray[np.float64]
@@ -69,6 +88,32 @@ class ConductorSection:
     conductor_radius: float
     strand_scale: float
     closed_gap: float
+    flat_width: float = 0.0
+    flat_wanted: float = 0.0
+    edge: float = 0.0
+    void_cells: NDArray[np.int64] = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))
+
+    @property
+    def flats_as_wanted(self) -> bool:
+        """Whether the flats have the width that was asked for."""
+        return abs(self.flat_width - self.flat_wanted) <= FLAT_MISFIT * self.flat_wanted
+
+    def flat_sentence(self, name: str) -> str:
+        """The width of the flats in words, and why it is not the one that was asked for."""
+        used, wanted = 1e3 * self.flat_width, 1e3 * self.flat_wanted
+        if self.flats_as_wanted:
+            return f"{name}: strands touch each other on flats {used:.3g} mm wide."
+        if self.flat_width > max(self.flat_wanted, 2 * NARROWEST * self.edge) * (1 + FLAT_MISFIT):
+            return (
+                f"{name}: strands overlap where they touch, so that flats of {used:.3g} mm are used, not {wanted:.3g} mm: make the strands "
+                "thinner or lengthen their lay if they should be narrower."
+            )
+        if self.flat_width > self.flat_wanted:
+            return (
+                f"{name}: flats {wanted:.3g} mm wide between strands are too narrow for edges of {1e3 * self.edge:.3g} mm: "
+                f"{used:.3g} mm is used; ask for more elements, or state a wider flat."
+            )
+        return f"{name}: flats {wanted:.3g} mm wide leave the strands no free surface between their contacts: {used:.3g} mm is used."
 
 
 def conductor_section(
@@ -78,6 +123,8 @@ def conductor_section(
     turn_rate: float,
     ring_nodes: int,
     size: float | None = None,
+    flat_width: float | None = None,
+    filled: bool = False,
 ) -> ConductorSection:
     """Mesh the strands of a conductor in the plane normal to its axis.
 
@@ -89,6 +136,9 @@ def conductor_section(
     ring_nodes : N, nodes of the circle about the conductor; even and a multiple of the fold
     size : distance [m] of the nodes on the outline of a strand; None takes that of the ring nodes. Values above 0.6 strand
         radii change nothing any more.
+    flat_width : width [m] of the flats that touching strands share; None takes 0.3 strand radii. Hertz's width for a known force:
+        line_contact.hertz_half_width.
+    filled : mesh the voids between the strands as well, as `void_cells`
 
     Raises
     ------
@@ -122,6 +172,12 @@ def conductor_section(
     size = 2 * np.pi * conductor_radius / ring_nodes if size is None else size
     if not size > 0:
         raise MeshError(f"the distance of the nodes on a strand must be positive, found {1e3 * size:g} mm.")
+    wanted = 2 * FLAT * strand_radius if flat_width is None else flat_width
+    if not 0 < wanted <= 2 * WIDEST * strand_radius:
+        raise GeometryError(
+            f"flats between strands of {2e3 * strand_radius:.4g} mm cannot be {1e3 * wanted:.4g} mm wide: state a width above zero "
+            f"and up to {2e3 * WIDEST * strand_radius:.3g} mm."
+        )
     ring = _ring(conductor_radius, ring_nodes)
     if sum(layers) == 1:
         return _whole_disc(ring, fold, conductor_radius, scale)
@@ -132,8 +188,10 @@ def conductor_section(
     )
     traces = [WireTrace(p.centre_radius, p.phase, p.radius * scale, turn_rate) for p in places]
     sector = _sector(layers, fold)
-    contacts, outlines = _fitting_outlines(places, traces, layers, sector, ring, size)
+    contacts, outlines, edge = _fitting_outlines(places, traces, layers, sector, ring, size, wanted)
     points, cells, strand_of = _turned_copies(outlines, sector, places, fold, ring)
+    found = fill_voids(points, cells, np.arange(ring_nodes), fold) if filled else None
+    points, void_cells = (points, np.empty((0, 3), dtype=np.int64)) if found is None else found
     return ConductorSection(
         points=points,
         cells=cells,
@@ -145,6 +203,12 @@ def conductor_section(
         conductor_radius=conductor_radius,
         strand_scale=scale,
         closed_gap=max((c.gap for c in contacts if c.first != RING), default=0.0),
+        flat_width=max(
+            (float(np.linalg.norm(c.nodes[-1] - c.nodes[0])) for c in contacts if c.first != RING), default=0.0
+        ),
+        flat_wanted=wanted,
+        edge=edge,
+        void_cells=void_cells,
     )
 
 
@@ -210,18 +274,19 @@ def _fitting_outlines(
     sector: dict[int, list[int]],
     ring: NDArray[np.float64],
     size: float,
-) -> tuple[list[Contact], dict[int, StrandOutline]]:
-    """Contacts, and outlines of the strands of one sector, with finer edges where coarse ones run into each other."""
+    flat: float,
+) -> tuple[list[Contact], dict[int, StrandOutline], float]:
+    """Contacts, outlines of the strands of one sector, with finer edges where coarse ones run into each other, and their length."""
     fold = section_fold(layers, len(ring))
     size = min(size, COARSEST * traces[0].radius)
     for finer in FINER:
-        contacts = find_contacts(places, traces, layers, fold, ring, finer * size)
+        contacts = find_contacts(places, traces, layers, fold, ring, finer * size, flat)
         outlines = {
             k: _outline(k, places[k], traces[k], contacts, _pattern(k, places, fold), finer * size) for k in sector
         }
         hit = _collision(outlines, sector, places, fold, ring)
         if hit is None:
-            return contacts, outlines
+            return contacts, outlines, finer * size
     raise MeshError(f"{hit}: take more ring nodes or a smaller size.")
 
 

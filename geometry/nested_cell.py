@@ -7,7 +7,7 @@ cabling lay (host_section.py). Each conductor is a section of its strands swept 
 strand i continuing as another strand.
 
 The exact volume of a strand of radius rho is pi rho^2 times the arc length of its centre line (Pappus), given as area = volume / H.
-The voids between the strands are empty.
+The voids between the strands are empty, or filled with wedges of the material that the cable file names.
 """
 
 from __future__ import annotations
@@ -38,6 +38,7 @@ def nested_cell(
     height: float | None = None,
     layers: int | None = None,
     lay_tolerance: float | None = None,
+    flat_width: float | None = None,
     progress: Progress | None = None,
 ) -> SweptCell:
     """Mesh a cable with all its strands over a common period of its lays.
@@ -50,12 +51,15 @@ def nested_cell(
         eighth of the lay (half the diameter of a straight cable)
     layers : elements along z; None takes layers about as high as the section's elements are wide
     lay_tolerance : largest change of a lay angle [rad] that may be made to have a common period; None takes half a degree
+    flat_width : width [m] of the flats on which strands touch each other, of all conductors; None takes what the cable file says, or
+        0.3 strand radii (strand_contact.py). The mesh keeps it as soon as its edges are short enough; `notes` of the cell tell.
     progress : called with (fraction, sentence)
 
     Returns
     -------
     SweptCell
-        Regions "power core 1 strand 1" .. of the kind "strand" instead of the stranded conductors, all others as the parts of the cable.
+        Regions "power core 1 strand 1" .. of the kind "strand" instead of the stranded conductors, all others as the parts of the cable;
+        "power core 1 voids" of the kind "interstices" where voids are filled.
 
     Raises
     ------
@@ -64,11 +68,14 @@ def nested_cell(
     MeshError
         If the height is not a period, a stranded conductor is bare, a number is not usable, or more than 20 million elements would result.
     """
-    plan = plan_of_cell(cable, elements, size, height, layers, lay_tolerance, progress)
+    plan = plan_of_cell(cable, elements, size, height, layers, lay_tolerance, progress, flat_width)
     if progress:
         progress(0.8, f"sweeping {plan.layers} layers of {plan.cells_per_layer} elements")
     cell = _Builder(cable, plan).cell()
     logger.info("%d hexahedra in %d layers, cell of %.4g mm", cell.count("hexahedron"), plan.layers, 1e3 * plan.height)
+    for conductor in plan.conductors:
+        if not conductor.section.flats_as_wanted:
+            logger.warning("%s", conductor.section.flat_sentence(conductor.part.name))
     return cell
 
 
@@ -97,9 +104,11 @@ class _Builder:
         regions, host_region, strand_regions = regions_of_cell(self.cable, self.plan.conductors, self.plan.height)
         starts, mesh = self.starts, self.host.mesh
         swept = [(mesh.cells, host_region[mesh.region_of])]
+        filled: list[tuple[NDArray[np.int64], NDArray[np.int64]]] = []
         rings, first = [], int(starts[-1]) * (self.plan.layers + 1)
         for c, start, strands in zip(self.plan.conductors, starts[1:-1], strand_regions, strict=True):
             swept.append((c.section.cells + start, strands[c.section.strand_of]))
+            filled.append((c.section.void_cells + start, np.full(len(c.section.void_cells), strands[-1])))
             ring = self._ring(c, int(start), first)
             rings.append((ring, int(host_region[self._layer_number(c)])))
             first += len(ring.divided)
@@ -107,8 +116,16 @@ class _Builder:
         points = planes.reshape(-1, 3)
         points = np.concatenate([points] + [points[ring.divided].mean(axis=1) for ring, _ in rings])
         bottom, top = self._partners()
+        notes = tuple(c.section.flat_sentence(c.part.name) for c in self.plan.conductors)
         return SweptCell(
-            points, tuple(self._blocks(swept, rings)), regions, mesh.twist_rate, self.plan.height, bottom, top
+            points,
+            tuple(self._blocks(swept, filled, rings)),
+            regions,
+            mesh.twist_rate,
+            self.plan.height,
+            bottom,
+            top,
+            notes,
         )
 
     def _layer_number(self, conductor: TurningConductor) -> int:
@@ -128,23 +145,37 @@ class _Builder:
         return slip_ring(inner, outer, conductor.steps(self.plan.height), first)
 
     def _blocks(
-        self, swept: list[tuple[NDArray[np.int64], NDArray[np.int64]]], rings: list[tuple[SlipRing, int]]
+        self,
+        swept: list[tuple[NDArray[np.int64], NDArray[np.int64]]],
+        filled: list[tuple[NDArray[np.int64], NDArray[np.int64]]],
+        rings: list[tuple[SlipRing, int]],
     ) -> list[CellBlock]:
-        layers, stride = self.plan.layers, int(self.starts[-1])
-        flat = np.concatenate([cells for cells, _ in swept])
-        shift = stride * np.arange(layers)[:, None, None]
-        hexahedra = np.concatenate([flat + shift, flat + shift + stride], axis=2).reshape(-1, 8)
-        region_of = np.tile(np.concatenate([region for _, region in swept]), layers)
         found = []
-        for kind, own in (("hexahedron", (hexahedra, region_of)), ("pyramid", None), ("tetra", None)):
-            name = {"hexahedron": "hexahedra", "pyramid": "pyramids", "tetra": "tetrahedra"}[kind]
-            cells = [getattr(ring, name) for ring, _ in rings]
-            numbers = [np.full(len(c), region) for c, (_, region) in zip(cells, rings, strict=True)]
-            if own:
-                cells, numbers = [own[0], *cells], [own[1], *numbers]
-            if sum(map(len, cells)):
-                found.append(CellBlock(kind, np.concatenate(cells), np.concatenate(numbers).astype(np.int64)))
+        for kind, name in (
+            ("hexahedron", "hexahedra"),
+            ("wedge", ""),
+            ("pyramid", "pyramids"),
+            ("tetra", "tetrahedra"),
+        ):
+            pieces = [
+                (getattr(ring, name), np.full(len(getattr(ring, name)), region)) for ring, region in rings if name
+            ]
+            own = {"hexahedron": swept, "wedge": filled}.get(kind, [])
+            pieces = ([self._swept(own)] if own else []) + pieces
+            if sum(len(cells) for cells, _ in pieces):
+                cells, numbers = (np.concatenate(parts) for parts in zip(*pieces, strict=True))
+                found.append(CellBlock(kind, cells, numbers.astype(np.int64)))
         return found
+
+    def _swept(
+        self, flat: list[tuple[NDArray[np.int64], NDArray[np.int64]]]
+    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Cells between the planes over the cells of a plane, and their regions."""
+        layers, stride = self.plan.layers, int(self.starts[-1])
+        cells = np.concatenate([cells for cells, _ in flat])
+        shift = stride * np.arange(layers)[:, None, None]
+        solid = np.concatenate([cells + shift, cells + shift + stride], axis=2)
+        return solid.reshape(-1, solid.shape[2]), np.tile(np.concatenate([region for _, region in flat]), layers)
 
     def _partners(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         starts = self.starts
@@ -158,7 +189,8 @@ class _Builder:
 def regions_of_cell(
     cable: Cable, conductors: tuple[TurningConductor, ...], height: float
 ) -> tuple[tuple[Region, ...], NDArray[np.int64], list[NDArray[np.int64]]]:
-    """Regions; the region of every part of the cable (-1 for stranded conductors); those of the strands of each conductor."""
+    """Regions; the region of every part of the cable (-1 for stranded conductors); those of the strands of each conductor, that
+    of its voids last if they are filled."""
     turning = {c.part.name: c for c in conductors}
     regions: list[Region] = []
     of_part, of_strands = np.full(len(cable.parts), -1, dtype=np.int64), {}
@@ -174,6 +206,10 @@ def regions_of_cell(
         regions += [
             Region(f"{part.member} strand {k + 1}", "strand", material, float(area)) for k, area in enumerate(areas)
         ]
+        if conductor.make_up.voids is not None:
+            of_strands[part.name] = np.append(of_strands[part.name], len(regions))
+            void = float(part.area - areas.sum())
+            regions.append(Region(f"{part.member} voids", "interstices", conductor.make_up.voids, void))
     return tuple(regions), of_part, [of_strands[c.part.name] for c in conductors]
 
 

@@ -69,6 +69,7 @@ def plan_of_cell(
     layers: int | None,
     lay_tolerance: float | None,
     progress: Progress | None,
+    flat_width: float | None = None,
 ) -> NestedPlan:
     """Arguments and errors as ``nested_cell``."""
     _check_numbers(elements, size, layers)
@@ -82,7 +83,7 @@ def plan_of_cell(
     for attempt in range(ATTEMPTS):
         if progress:
             progress(0.8 * attempt / ATTEMPTS, f"meshing the section with edges of {1e3 * edge:.2f} mm")
-        plan = _planned(cable, height, rates, edge, elements, layers)
+        plan = _planned(cable, height, rates, edge, elements, layers, flat_width)
         slimness = plan.height / plan.layers / edge
         surplus = 1.0 if elements is None else plan.hexahedra / elements
         misfit = abs(np.log(slimness)) + abs(np.log(surplus))
@@ -106,10 +107,16 @@ def plan_of_cell(
 
 
 def _planned(
-    cable: Cable, height: float, rates: dict[str, float], edge: float, elements: int | None, layers: int | None
+    cable: Cable,
+    height: float,
+    rates: dict[str, float],
+    edge: float,
+    elements: int | None,
+    layers: int | None,
+    flat_width: float | None,
 ) -> NestedPlan:
     """The sections for an edge length, and the layers that they need."""
-    conductors = _conductors(cable, rates, edge)
+    conductors = _conductors(cable, rates, edge, flat_width)
     holes = {c.part.name: Hole(c.hole_radius, len(c.section.ring), c.turn_rate) for c in conductors}
     host = host_section(cable, holes, edge)
     plan = NestedPlan(height, 1, host, conductors)
@@ -128,7 +135,9 @@ def _planned(
     return NestedPlan(height, layers, host, conductors)
 
 
-def _conductors(cable: Cable, rates: dict[str, float], edge: float) -> tuple[TurningConductor, ...]:
+def _conductors(
+    cable: Cable, rates: dict[str, float], edge: float, flat_width: float | None
+) -> tuple[TurningConductor, ...]:
     found = []
     sections: dict[tuple[str, float], tuple[ConductorSection, float]] = {}
     for name, rate in rates.items():
@@ -141,7 +150,11 @@ def _conductors(cable: Cable, rates: dict[str, float], edge: float) -> tuple[Tur
         if key not in sections:
             nodes, radius = ring_nodes(make_up, IN_CONDUCTOR * edge, wall), make_up.strand.diameter / 2
             own = own_turn_rate(part, rate)
-            section = conductor_section(make_up.layers, radius, part.outer_radius, own, nodes, IN_CONDUCTOR * edge)
+            flat = make_up.flat_width if flat_width is None else flat_width
+            filled = make_up.voids is not None
+            section = conductor_section(
+                make_up.layers, radius, part.outer_radius, own, nodes, IN_CONDUCTOR * edge, flat, filled
+            )
             step = 2 * np.pi * part.outer_radius / nodes
             sections[key] = section, part.outer_radius + min(1.2 * step, 0.55 * wall)
         section, hole = sections[key]

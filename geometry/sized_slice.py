@@ -117,6 +117,7 @@ def slice_record(
             region.name: {"volume": float(volume), "closed_form": float(region.closed_form_area * mesh.height)}
             for region, volume in zip(mesh.regions, region_sizes(mesh), strict=True)
         },
+        "notes": list(getattr(mesh, "notes", ())),
         "interfaces": _areas([*interfaces(mesh), *parted]),
         "separated": _areas(parted),
         "seconds": float(seconds),

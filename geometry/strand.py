@@ -125,7 +125,8 @@ class Conductor:
 
     `density` counts the true mass per length of the conductor, lay included; `density_without_lay` is metal area x
     density of the metal over the cylinder. `strand` is None where the make-up is not modelled; `wires` counts its wires, 1 for a solid
-    rod, 0 where they are not known.
+    rod, 0 where they are not known. `flat_width` [m] is that of the flats on which strands touch, None where it is not stated;
+    `voids` what fills the space between the strands, None where it is empty: it adds to the mass, not to `E`.
     """
 
     name: str
@@ -140,6 +141,8 @@ class Conductor:
     lay: float | None = None
     hand: str = "Z"
     wires: int = 0
+    flat_width: float | None = None
+    voids: Material | None = None
 
     @property
     def area(self) -> float:
@@ -154,7 +157,16 @@ class Conductor:
     @property
     def density(self) -> float:
         """Mass per length of conductor over the cylinder area, lay included [kg/m^3]."""
-        return self.density_without_lay * self.lay_factor
+        metal = self.density_without_lay * self.lay_factor
+        return metal if self.voids is None else metal + self.voids.density * self.void_share
+
+    @property
+    def void_share(self) -> float:
+        """Space between the strands over the cylinder area; the voids inside a strand are not counted."""
+        if self.strand is None:
+            return 0.0
+        radii = layer_radii(self.layers, self.strand.diameter, self.name)
+        return 1 - sum(self.layers) * self.strand.area * _mean_over_layers(self.layers, radii, self.lay, -1) / self.area
 
     @property
     def material(self) -> Material:
@@ -170,7 +182,14 @@ class Conductor:
 
 
 def stranded_conductor(
-    name: str, strand: Strand, layers: tuple[int, ...], lay: float | None, hand: str, diameter: float | None
+    name: str,
+    strand: Strand,
+    layers: tuple[int, ...],
+    lay: float | None,
+    hand: str,
+    diameter: float | None,
+    flat_width: float | None = None,
+    voids: Material | None = None,
 ) -> Conductor:
     """Conductor made of equal strands in concentric layers, as one cylinder.
 
@@ -179,6 +198,7 @@ def stranded_conductor(
     layers : strands in each layer from the inside, such as (1, 6)
     lay : rope lay [m], None for straight strands
     diameter : float or None [m]; None takes the diameter over the outer strands
+    flat_width, voids : as of :class:`Conductor`
 
     Raises
     ------
@@ -210,6 +230,8 @@ def stranded_conductor(
         lay=lay,
         hand=hand,
         wires=count * sum(strand.layers),
+        flat_width=flat_width,
+        voids=voids,
     )
 
 

@@ -7,8 +7,14 @@ Optimization, 2004, section 8.2.2), negative where they overlap:
 
 They share a flat, normal to that n, half-way between the two support points, if g is below `CLOSED` strand radii; where the
 pattern was scaled down to a stated diameter, strands of their full radius are meant. A strand that would hang free is held by
-its nearest neighbour, up to `HELD`; in a real conductor it would have settled there.
-Strands of the outermost layer share edges with the circle about the conductor.
+its nearest neighbour, up to `HELD`; in a real conductor it would have settled there. Strands of the outermost layer share edges
+with the circle about the conductor, over an arc of the same width as near as its nodes allow, at least an edge to each side.
+
+How wide a flat is, is physics, not mesh: the bonded stiffness grows with the logarithm of the width. Hertz gives it for round rods and
+a known force (line_contact.py). Without a number the half-width is `FLAT` strand radii, an assumption: there a circle has left its tangent by 1.1 % of its radius, about
+half the gap that is closed here (`CLOSED`), and the overlap of the reference cable's strands (0.127 radii to each side) is spanned.
+Strands whose round traces overlap share a flat at least as wide as the overlap.
+A mesh resolves flats down to a half-width of `NARROWEST` times the distance of its nodes.
 """
 
 from __future__ import annotations
@@ -30,10 +36,14 @@ HELD = 0.25
 """Gaps up to this fraction of the strand radius are closed if a strand would hang free otherwise."""
 OVERLAP = 0.15
 """Overlaps beyond this fraction of the strand radius are refused."""
-HALF_WIDTH = 0.3
+FLAT = 0.15
+"""Half-width of a flat over the strand radius, where none is stated."""
+WIDEST = 0.3
 """Largest half-width of a flat over the strand radius."""
-TWO_EDGES = 0.55
-"""Flats have one edge if the nodes are farther apart than this many strand radii."""
+ROOM = 1.1
+"""Width of a flat over that of the overlap of two strands, which it must span."""
+NARROWEST = 0.15
+"""Smallest half-width of a flat over the distance of the nodes."""
 REACH = 2.75
 """Strands whose centres are farther apart than this many strand radii are not neighbours."""
 TIE = 1e-6
@@ -62,12 +72,15 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class _Touch:
-    """Support of two traces on each other: `middle` of the flat, its `normal` from the first to the second, `gap`."""
+class Touch:
+    """Support of two traces on each other: `middle` of the flat [m], its `normal` from the first to the second, `gap` [m], and the
+    angles phi of the two support points on their traces."""
 
     middle: NDArray[np.float64]
     normal: NDArray[np.float64]
     gap: float
+    on_first: float
+    on_second: float
 
 
 def turned(points: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
@@ -83,6 +96,7 @@ def find_contacts(
     fold: int,
     ring: NDArray[np.float64],
     size: float,
+    flat: float,
 ) -> list[Contact]:
     """All contacts of the strands with each other and with the ring; they repeat after 2 pi / fold.
 
@@ -90,7 +104,8 @@ def find_contacts(
     ----------
     places, traces : of each strand, numbered from the inside and counter-clockwise in each layer
     ring : (N, 2) nodes of the circle about the conductor
-    size : wanted distance of the nodes [m]; flats are two edges wide, one if the strand is meshed coarsely
+    size : wanted distance of the nodes [m]; flats have edges of about that length
+    flat : wanted width of the flats [m]; they come out narrower where contacts are close together, wider where the mesh is coarse
 
     Raises
     ------
@@ -104,7 +119,7 @@ def find_contacts(
         a, b = orbit[0]
         if np.linalg.norm(centre_of(places[a]) - centre_of(places[b])) > REACH * radius:
             continue
-        touch = _touch(traces[a], traces[b])
+        touch = touch_of(traces[a], traces[b])
         if touch.gap < -OVERLAP * radius:
             raise GeometryError(
                 f"strands {a} and {b} of a conductor overlap by {-1e3 * touch.gap:.3g} mm: lay fewer strands in the layer, make "
@@ -115,17 +130,26 @@ def find_contacts(
     outer = range(len(places) - layers[-1], len(places))
     closed = _closed(orbits, touches, outer, len(places), radius, CLOSED * radius + pressed)
     apart = _least_angle(closed, touches, places, outer, fold)
-    half = min(0.6 * size, HALF_WIDTH * radius, 0.3 * apart * radius)
-    edges = 1 if size > TWO_EDGES * radius else 2
-    contacts = [_ring_contact(b, places[b].phase, ring) for b in outer]
+    widest = min(WIDEST * radius, 0.3 * apart * radius)
+    contacts = [_ring_contact(b, places[b].phase, ring, min(0.5 * flat, widest)) for b in outer]
     for orbit in closed:
         touch = touches[orbit]
+        overlap = overlap_half_width(touch, *(traces[k] for k in orbit[0]))
+        half = min(max(0.5 * flat, NARROWEST * size, overlap), widest)
+        edges = max(1, round(2 * half / size))
         along = np.array([-touch.normal[1], touch.normal[0]])
         nodes = touch.middle + half * np.linspace(-1, 1, edges + 1)[:, None] * along
         for copy, (a, b) in enumerate(orbit):
             image = turned(nodes, 2 * np.pi * copy / fold)
             contacts.append(Contact(a, b, image, touch.gap) if a < b else Contact(b, a, image[::-1], touch.gap))
     return contacts
+
+
+def overlap_half_width(touch: Touch, a: WireTrace, b: WireTrace) -> float:
+    """Half the width [m] over which two traces overlap, with a little room; 0 if they are apart: gap + (k_a + k_b) s^2 / 2 = 0."""
+    if touch.gap >= 0:
+        return 0.0
+    return ROOM * float(np.sqrt(-2 * touch.gap / (a.curvature(touch.on_first) + b.curvature(touch.on_second))))
 
 
 def _orbits(layers: tuple[int, ...], fold: int) -> list[tuple[tuple[int, int], ...]]:
@@ -161,41 +185,38 @@ def centre_of(member: StrandPlace | WireTrace) -> NDArray[np.float64]:
     return member.centre_radius * np.array([np.cos(member.phase), np.sin(member.phase)])
 
 
-def _touch(a: WireTrace, b: WireTrace) -> _Touch:
+def touch_of(a: WireTrace, b: WireTrace) -> Touch:
     """Largest separation of two traces over all directions near the line of their centres."""
     from scipy.optimize import minimize_scalar  # slow to load, needed here only
 
     line = centre_of(b) - centre_of(a)
     base = float(np.arctan2(line[1], line[0]))
 
-    def support(angle: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    def touch(angle: float) -> Touch:
         n = np.array([np.cos(angle), np.sin(angle)])
-        return n, _support(a, n), _support(b, -n)
-
-    def separation(angle: float) -> float:
-        n, pa, pb = support(angle)
-        return float(n @ (pb - pa))
+        on_a, on_b = _support(a, n), _support(b, -n)
+        pa, pb = a.point(on_a), b.point(on_b)
+        return Touch((pa + pb) / 2, n, float(n @ (pb - pa)), on_a, on_b)
 
     found = minimize_scalar(
-        lambda x: -separation(base + x), bounds=(-0.5, 0.5), method="bounded", options={"xatol": 1e-9}
+        lambda x: -touch(base + x).gap, bounds=(-0.5, 0.5), method="bounded", options={"xatol": 1e-9}
     )
-    n, pa, pb = support(base + round(float(found["x"]), 7))
-    return _Touch((pa + pb) / 2, n, float(n @ (pb - pa)))
+    return touch(base + round(float(found["x"]), 7))
 
 
-def _support(trace: WireTrace, n: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The point of a trace that lies farthest along `n`, by table and Newton steps."""
+def _support(trace: WireTrace, n: NDArray[np.float64]) -> float:
+    """The angle phi of the point of a trace that lies farthest along `n`, by table and Newton steps."""
     table = np.linspace(0, 2 * np.pi, 128, endpoint=False)
     phi = float(table[(trace.point(table) @ n).argmax()])
     for _ in range(4):
         bend = (trace.derivative(phi + 1e-5) - trace.derivative(phi - 1e-5)) @ n / 2e-5
         phi -= float(np.clip(trace.derivative(phi) @ n / min(bend, -0.1 * trace.radius), -0.05, 0.05))
-    return trace.point(phi)
+    return phi
 
 
 def _closed(
     orbits: Sequence[tuple[tuple[int, int], ...]],
-    touches: dict[tuple[tuple[int, int], ...], _Touch],
+    touches: dict[tuple[tuple[int, int], ...], Touch],
     outer: range,
     count: int,
     radius: float,
@@ -232,7 +253,7 @@ def _closed(
 
 def _least_angle(
     closed: Sequence[tuple[tuple[int, int], ...]],
-    touches: dict[tuple[tuple[int, int], ...], _Touch],
+    touches: dict[tuple[tuple[int, int], ...], Touch],
     places: Sequence[StrandPlace],
     outer: range,
     fold: int,
@@ -253,8 +274,13 @@ def _least_angle(
     return least
 
 
-def _ring_contact(strand: int, phase: float, ring: NDArray[np.float64]) -> Contact:
-    """The ring nodes within one step of the phase of a strand: three, or two where the phase falls between nodes."""
-    position = phase * len(ring) / (2 * np.pi)
-    indices = np.arange(int(np.ceil(position - 1 - 1e-6)), int(np.floor(position + 1 + 1e-6)) + 1)
+def _ring_contact(strand: int, phase: float, ring: NDArray[np.float64], half: float) -> Contact:
+    """The ring nodes within about `half` [m] of the phase of a strand: at least three, or two where the phase falls between nodes."""
+    step = 2 * np.pi / len(ring)
+    position, steps = phase / step, half / (step * float(np.linalg.norm(ring[0])))
+    middle = round(2 * position) / 2
+    reach = max(1.0, steps)
+    if abs(position - middle) < 1e-6:
+        reach = max(1, round(steps)) if middle == round(middle) else max(0, round(steps - 0.5)) + 0.5
+    indices = np.arange(int(np.ceil(position - reach - 1e-6)), int(np.floor(position + reach + 1e-6)) + 1)
     return Contact(RING, strand, ring[indices % len(ring)], 0.0)

@@ -88,6 +88,11 @@ class WireTrace:
         dv = self.radius * c * np.cos(phi) + rate * np.cos(phi) * u
         return np.stack([np.cos(turn) * du - np.sin(turn) * dv, np.sin(turn) * du + np.cos(turn) * dv], axis=-1)
 
+    def curvature(self, phi: float, step: float = 1e-4) -> float:
+        """Curvature [1/m] of the curve, by differences of its slope; positive where it bulges."""
+        (x, y), (u, v) = self.derivative(phi), (self.derivative(phi + step) - self.derivative(phi - step)) / (2 * step)
+        return float((x * v - y * u) / np.hypot(x, y) ** 3)
+
     def nearest(self, points: ArrayLike) -> NDArray[np.float64]:
         """Angles phi, shape (n,), of the curve points nearest to `points` (n, 2): table search, then Newton steps."""
         points = np.atleast_2d(np.asarray(points, dtype=float))

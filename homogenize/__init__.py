@@ -15,7 +15,7 @@ from homogenize.homogenization import Homogenization, homogenize_cable, slice_st
 from homogenize.interface_choice import Interfaces
 from homogenize.opening_contact import OpeningPath, Unilateral, opening_path, opening_section
 from homogenize.periodic_cell import PeriodicCell, solve_periodic_cell
-from homogenize.rubbing_section import axial_friction, bending_friction
+from homogenize.rubbing_section import axial_friction, bending_friction, contact_section
 from homogenize.section_stiffness import ORDER, SectionInertia, SectionStiffness, pitch_average
 from homogenize.sliding_interface import Frictionless
 from homogenize.stiffness_bounds import LooseStiffness, StiffnessRange, allowed_stiffness, loose_stiffness
@@ -47,6 +47,7 @@ __all__ = [
     "axial_friction",
     "bending_friction",
     "check_cell",
+    "contact_section",
     "friction_loop",
     "grip_per_tension",
     "homogenize_cable",

@@ -1,94 +1,55 @@
-r"""Loops of tension, torsion and bending of a section whose parts rub.
+r"""Loops of tension, torsion and bending of a section whose parts rub or open.
 
-A load path is followed step by step (:mod:`homogenize.coulomb_interface`); each step leaves
+A load path is followed step by step (:mod:`homogenize.contact_step`); each step leaves
 
-.. math::  F = C e + A^H s, \qquad \Delta D = \sum_i c_i\, |\Delta s_i|, \qquad \oint F\, de = \oint \Delta D
+.. math::  F = C e + A^H x, \qquad \Delta D = \sum_i c_i\, |\Delta s_i|, \qquad \oint F\, de = \oint \Delta D
 
-(per length, mean over the pitch; the last for a closed loop). The first slope is that of the bonded section, the last that of the section
-without friction. With constant grip an unloading branch is the first loading twice as large (Masing): friction has to be turned
-round from -c to c. This is exact where the tractions keep their lines, and a rule of thumb (1e-3 in bending) where they turn.
+(per length, mean over the pitch; the last for a closed loop). Each component of the path is a strain, or the force in its place: then the
+strain is part of the same problem (:func:`homogenize.interface_condensation.force_driven`), solved as exactly. The first slope is that of
+the bonded section, the last that of the section without friction. With constant grip an unloading branch is the first
+loading twice as large (Masing): friction has to be turned round from -c to c. This is exact where the tractions keep their lines,
+and a rule of thumb (1e-3 in bending) where they turn.
 
-The grip p is a given pressure, or a share of the tension at the end of the step before, p = p_0 + p_1 N.
+The pressure p that rubs is, where parts stay closed, a given grip, or a grip that grows with the tension of the step, p = p_0 + p_1 N >= 0;
+where they can part it is the contact pressure of the step itself, a given grip included.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.errors import SpecError
-from homogenize.coulomb_interface import SlipOperator, slip_step
+from geometry.errors import ConvergenceError, SpecError
+from homogenize.contact_step import NodeLaws, UnsettledError, contact_step
+from homogenize.interface_condensation import Progress
+from homogenize.interface_operator import InterfaceOperator
+from homogenize.rubbing_section import RubbingSection
 from homogenize.section_field import FloatArray
 
-Progress = Callable[[float, str], None]
-
-
-@dataclass(frozen=True)
-class RubbingSection:
-    """A section condensed onto the slips of its rubbing interfaces (m nodes).
-
-    Attributes
-    ----------
-    operator : stiffness of slips and strains
-    strains, forces : names of the strains that a load path prescribes and of the forces that answer
-    surface : (m,) surface of each node per length of cable [m]
-    friction : (m,) friction coefficient
-    position : (2, m) in the rotating frame at phase zero [m]
-    normal : (3, m) of the interface, out of the first of its two parts
-    parts : (m,) names of the two parts
-    complex_strain : whether the strains are the two components of a vector that stands still while the section turns
-    """
-
-    operator: SlipOperator
-    strains: tuple[str, ...]
-    forces: tuple[str, ...]
-    surface: FloatArray
-    friction: FloatArray
-    position: FloatArray
-    normal: FloatArray
-    parts: tuple[tuple[str, str], ...]
-    complex_strain: bool
-
-    @property
-    def bonded(self) -> FloatArray:
-        """Stiffness (p, p) of the strains while everything sticks."""
-        return self._real(self.operator.harmonics[0].C)
-
-    @property
-    def frictionless(self) -> FloatArray:
-        """Stiffness (p, p) of the strains when every slip is free."""
-        return self._real(self.operator.harmonics[0].frictionless)
-
-    def amplitude(self, strain: FloatArray) -> NDArray:
-        """Strains as the amplitude of the first harmonic: for a curvature (kappa_x - i kappa_y) / sqrt 2."""
-        return np.array([strain[0] - 1j * strain[1]]) / np.sqrt(2) if self.complex_strain else strain
-
-    def force(self, amplitude: NDArray) -> FloatArray:
-        """Section forces from the amplitude of the first harmonic."""
-        if not self.complex_strain:
-            return np.real(amplitude)
-        M = np.sqrt(2) * amplitude[0]
-        return np.array([M.real, -M.imag])
-
-    def _real(self, C: NDArray) -> FloatArray:
-        return np.eye(2) * C[0, 0].real if self.complex_strain else np.real(C)
+_NULL, _BALANCE = 1e-9, 1e-6
+_SAME_GRIP, _MOST_GRIPS = 1e-5, 30
+"""Change of the grip, relative to its largest, below which it fits the tension; number of corrections allowed."""
+_TOUCHING = 1e-7
+"""Gaps below this share of the largest one are none."""
 
 
 @dataclass(frozen=True)
 class FrictionLoop:
-    """A load path and the answer (n steps, p strains, j stations along half a pitch or one, m nodes).
+    """A load path and the answer (n steps, p strains, j stations, m nodes).
 
     Attributes
     ----------
     strain, force : (n, p), in the order and with the names of the section
-    slip : (n, j, m, 2) along the two tangents of the interface [m]
+    slip : (n, j, m, 2) along the two tangents of the interface [m]; zero where slips are free and not followed
     traction : (n, j, m, 2) [Pa], on the first part of each interface
     sliding : (n, j, m) whether the node slid in the step
+    gap : (n, j, m) between the parts [m]
+    pressure : (n, j, m) contact pressure where parts can open, else the grip [Pa]
     dissipation : (n,) heat per length since the start [J/m]
-    cap : (n, m) largest tangential traction, mu p [Pa]
+    cap : (n, j, m) largest tangential traction, mu p [Pa]
     iterations : (n,)
     """
 
@@ -98,6 +59,8 @@ class FrictionLoop:
     slip: FloatArray
     traction: FloatArray
     sliding: NDArray[np.bool_]
+    gap: FloatArray
+    pressure: FloatArray
     dissipation: FloatArray
     cap: FloatArray
     iterations: NDArray[np.int64]
@@ -108,14 +71,24 @@ class FrictionLoop:
         return float(np.einsum("np,np->", 0.5 * (F[1:] + F[:-1]), np.diff(e, axis=0)))
 
     @property
+    def is_open(self) -> NDArray[np.bool_]:
+        """Nodes with a gap, (n, j, m)."""
+        return self.gap > _TOUCHING * self.gap.max(initial=0.0)
+
+    @property
+    def open_share(self) -> FloatArray:
+        """Share of the surface that can open, along the pitch, that has a gap, (n,)."""
+        w = np.where(self.section.opens, self.section.surface, 0.0)
+        return self.is_open.mean(axis=1) @ w / max(w.sum(), 1e-300)
+
+    @property
     def cone_violation(self) -> float:
         """Largest |t| / (mu p) - 1 over all steps and nodes; 0 if the cone is kept."""
-        limit = np.broadcast_to(self.cap[:, None], self.sliding.shape)
-        gripped = limit > 1e-9 * limit.max()
+        gripped = self.cap > (1e-3 if self.section.opens.any() else 1e-9) * self.cap.max(initial=0.0)
         if not gripped.any():
             return 0.0
         length = np.linalg.norm(self.traction, axis=-1)
-        return max(0.0, float((length[gripped] / limit[gripped]).max()) - 1.0)
+        return max(0.0, float((length[gripped] / self.cap[gripped]).max()) - 1.0)
 
     def slope(self, step: int, strain: int = 0) -> float:
         """Change of force over change of strain in one step."""
@@ -125,9 +98,10 @@ class FrictionLoop:
 
 def friction_loop(
     section: RubbingSection,
-    strain: FloatArray,
+    path: FloatArray,
     grip: float | FloatArray = 0.0,
     grip_per_tension: FloatArray | None = None,
+    drives: Sequence[str] | None = None,
     progress: Progress | None = None,
 ) -> FrictionLoop:
     """Follow a load path from the stress-free section.
@@ -135,76 +109,194 @@ def friction_loop(
     Parameters
     ----------
     section : RubbingSection
-        From :func:`axial_friction` or :func:`bending_friction`.
-    strain : (n, p) array
-        The path; it starts at zero strain, which is put before the first row if it is not there.
+        From :func:`~homogenize.rubbing_section.axial_friction`, :func:`~homogenize.rubbing_section.bending_friction` or
+        :func:`~homogenize.rubbing_section.contact_section`.
+    path : (n, p) array
+        It starts at zero, which is put before the first row if it is not there.
     grip : float or (m,) array
-        Pressure on the interfaces [Pa].
+        Pressure on the interfaces [Pa]. Where parts can open it is there at zero strain, and forces count from that state.
     grip_per_tension : (m,) array, optional
-        Pressure per tension [Pa/N] that is added for the tension of the step before (axial loops only); see
+        Pressure per tension [Pa/N] that is added for the tension of the same step, where parts stay closed; see
         :func:`homogenize.grip_pressure.grip_per_tension`.
+    drives : names, optional
+        For each column of the path a strain of the section or the force in its place, such as ("stretch", "M_z") for a pull with ends
+        that are free to turn, or ("N", "twist"); strains throughout if not given.
 
     Raises
     ------
     SpecError
-        If the path has the wrong shape or the grip is negative.
+        If the path has the wrong shape, a name does not fit, the grip is negative, or it is not in equilibrium on a part that is free.
     ConvergenceError
-        If a step does not converge.
+        If a step does not converge, with the two parts where it is farthest off.
+
+    Examples
+    --------
+    A pull of 1 kN to and fro with ends that are free to turn::
+
+        found = friction_loop(section, [[1e3, 0.0], [-1e3, 0.0]], grip=1e5, drives=("N", "M_z"))
     """
-    path = _path(section, strain)
-    p0 = _grip(section, grip)
-    if grip_per_tension is not None and section.complex_strain:
-        raise SpecError("in bending the tension is constant: give its grip as grip = T * grip_per_tension.")
-    op, m = section.operator, len(section.surface)
-    n, j = len(path), op.stations
-    force, cap = np.zeros(path.shape), np.zeros((n, m))
-    slip, traction = np.zeros((n, j, 2 * m)), np.zeros((n, j, 2 * m))
-    heat, iterations = np.zeros(n), np.zeros(n, dtype=np.int64)
-    cap[0] = section.friction * p0
-    for i in range(1, n):
-        pressure = p0 if grip_per_tension is None else np.maximum(p0 + grip_per_tension * force[i - 1, 0], 0.0)
-        cap[i] = section.friction * pressure
-        load = op.load(section.amplitude(path[i]))
-        friction = -traction[i - 1] * np.repeat(section.surface, 2)
-        slip[i], iterations[i] = slip_step(
-            op, load, slip[i - 1], cap[i] * section.surface, _guess(path, slip, i), friction
-        )
-        force[i] = section.force(op.section_force(section.amplitude(path[i]), slip[i]))
-        traction[i] = (op.force(slip[i]) + load) / np.repeat(section.surface, 2)
-        length = np.linalg.norm((slip[i] - slip[i - 1]).reshape(j, m, 2), axis=-1)
-        heat[i] = heat[i - 1] + (length * cap[i] * section.surface).sum() / j
+    forced = section.forced(drives)
+    rows = _path(section, path, drives)
+    pressure = _Pressure(section, _grip(section, grip), grip_per_tension, forced)
+    follow = _Follower(section, section.driven(drives), pressure)
+    steps = []
+    for i, row in enumerate(rows):
+        steps.append(follow.step(row, f"step {i} of {len(rows) - 1}"))
         if progress:
-            progress(i / n, f"step {i} of {n - 1}")
-    shaped = (n, j, m, 2)
-    moved = np.diff(slip, axis=0, prepend=slip[:1]).reshape(shaped)
+            progress(i / max(len(rows) - 1, 1), f"step {i} of {len(rows) - 1}")
+    answer = np.array([step.answer for step in steps])
+    return _loop(section, np.where(forced, -answer, rows), np.where(forced, rows, answer), steps)
+
+
+@dataclass(frozen=True)
+class _Step:
+    """State after a load step: answer (p,), jumps and forces (j, u), caps (j, rubbing) [N/m], grip (m,) [Pa]."""
+
+    y: FloatArray
+    answer: FloatArray
+    jumps: FloatArray
+    before: FloatArray
+    force: FloatArray
+    caps: FloatArray
+    grip: FloatArray
+    iterations: int
+
+
+class _Pressure:
+    """The grip, as far as it depends on the tension."""
+
+    def __init__(
+        self, section: RubbingSection, grip: FloatArray, per_tension: FloatArray | None, forced: NDArray[np.bool_]
+    ) -> None:
+        if per_tension is not None and "N" not in section.forces:
+            raise SpecError("in bending the tension is constant: give its grip as grip = T * grip_per_tension.")
+        self.grip, self.forced = grip, bool(forced[0])
+        self.per_tension = None if per_tension is None else np.where(section.opens, 0.0, per_tension)
+
+    def at(self, tension: float) -> FloatArray:
+        """Pressure (m,) [Pa]."""
+        return self.grip if self.per_tension is None else np.maximum(self.grip + self.per_tension * tension, 0.0)
+
+    def tension(self, y: FloatArray, answer: FloatArray) -> float:
+        """The tension among loads and answers."""
+        return float(y[0] if self.forced else answer[0])
+
+
+class _Follower:
+    """The state of a section along its path."""
+
+    def __init__(self, section: RubbingSection, operator: InterfaceOperator, pressure: _Pressure) -> None:
+        self.section, self.op, self.pressure = section, operator, pressure
+        self.laws: NodeLaws = section.laws
+        self.slips = 2 * operator.rubbing
+        self.push = np.zeros(operator.unknowns)
+        self.push[self.slips :] = (pressure.grip * section.surface)[section.opens]
+        _check_grip(section, self.push)
+        nothing = np.zeros((operator.stations, operator.unknowns))
+        p = len(section.strains)
+        self.last = _Step(
+            np.zeros(p), np.zeros(p), nothing, nothing, nothing, nothing[:, : operator.rubbing], pressure.grip, 0
+        )
+
+    def step(self, y: FloatArray, where: str) -> _Step:
+        """One row of the path."""
+        load = self.op.load(y) + self.push
+        grip = self.pressure.at(self.pressure.tension(y, self.last.answer))
+        guess = self._guess(y)
+        for _ in range(_MOST_GRIPS):
+            found = self._settled(y, load, grip, guess, where)
+            wanted = self.pressure.at(self.pressure.tension(y, found.answer))
+            if np.abs(wanted - grip).max(initial=0.0) <= _SAME_GRIP * float(wanted.max(initial=0.0)):
+                self.last = found
+                return found
+            grip, guess = wanted, found.jumps - self.last.jumps
+        raise ConvergenceError(
+            f"{where}: grip and tension did not settle in {_MOST_GRIPS} corrections; take smaller load steps."
+        )
+
+    def _settled(self, y: FloatArray, load: FloatArray, grip: FloatArray, guess: FloatArray, where: str) -> _Step:
+        section, old = self.section, self.last
+        given = (section.friction * grip * section.surface)[section.rubs]
+        given[self.laws.opening_of >= 0] = 0.0
+        try:
+            jumps, count = contact_step(self.op, self.laws, load, old.jumps, given, guess, old.force)
+        except UnsettledError as error:
+            a, b = section.parts[_node_of(section, error.worst)]
+            raise ConvergenceError(f"{where}, worst between {a} and {b}: {error}") from None
+        force = self.op.force(jumps) + load
+        caps = self.laws.caps(given, force[:, self.slips :])
+        return _Step(y, self.op.answer(y, jumps), jumps, old.jumps, force, caps, grip, count)
+
+    def _guess(self, y: FloatArray) -> FloatArray:
+        """The last increment of the jumps, scaled to this step of the path; none where the path turns."""
+        now, before = y - self.last.y, self.last.y - getattr(self, "previous", self.last.y)
+        self.previous = self.last.y
+        same = float(before @ now)
+        return (
+            (self.last.jumps - self.last.before) * same / float(before @ before) if same > 0 else 0.0 * self.last.jumps
+        )
+
+
+def _loop(section: RubbingSection, strain: FloatArray, force: FloatArray, steps: list[_Step]) -> FrictionLoop:
+    n, j, m = len(steps), len(steps[0].jumps), len(section.surface)
+    rubs, opens, count = section.rubs, section.opens, 2 * int(section.rubs.sum())
+    jumps, forces = np.array([s.jumps for s in steps]), np.array([s.force for s in steps])
+    slip, traction = np.zeros((n, j, m, 2)), np.zeros((n, j, m, 2))
+    gap, cap = np.zeros((n, j, m)), np.zeros((n, j, m))
+    slip[:, :, rubs] = jumps[:, :, :count].reshape(n, j, -1, 2)
+    traction[:, :, rubs] = forces[:, :, :count].reshape(n, j, -1, 2) / section.surface[rubs, None]
+    pressure = np.broadcast_to(np.array([s.grip for s in steps])[:, None], (n, j, m)).copy()
+    pressure[:, :, opens] = np.maximum(forces[:, :, count:], 0.0) / section.surface[opens]
+    gap[:, :, opens] = jumps[:, :, count:] + section.gap[opens]
+    caps = np.array([s.caps for s in steps])
+    cap[:, :, rubs] = caps / section.surface[rubs]
+    moved = np.diff(slip, axis=0, prepend=slip[:1])
+    length = np.linalg.norm(moved, axis=-1)
+    heat = np.cumsum((length[:, :, rubs] * caps).sum(axis=(1, 2)) / j)
     return FrictionLoop(
         section,
-        path,
+        strain,
         force,
-        slip.reshape(shaped),
-        traction.reshape(shaped),
-        np.abs(moved).max(axis=-1) > 0,
+        slip,
+        traction,
+        length > 0,
+        gap,
+        pressure,
         heat,
         cap,
-        iterations,
+        np.array([s.iterations for s in steps]),
     )
 
 
-def _guess(path: FloatArray, slip: FloatArray, i: int) -> FloatArray:
-    """The last slip increment, scaled to this step of the path; none where the path turns."""
-    if i < 2:
-        return np.zeros_like(slip[0])
-    before, now = path[i - 1] - path[i - 2], path[i] - path[i - 1]
-    same = before @ now
-    return (slip[i - 1] - slip[i - 2]) * same / (before @ before) if same > 0 else np.zeros_like(slip[0])
+def _node_of(section: RubbingSection, unknown: int) -> int:
+    rubbing = int(section.rubs.sum())
+    if unknown < 2 * rubbing:
+        return int(np.flatnonzero(section.rubs)[unknown // 2])
+    return int(np.flatnonzero(section.opens)[unknown - 2 * rubbing])
 
 
-def _path(section: RubbingSection, strain: FloatArray) -> FloatArray:
-    path = np.asarray(strain, dtype=float)
+def _check_grip(section: RubbingSection, push: FloatArray) -> None:
+    """Refuse a grip that is not in equilibrium on a part that nothing else holds."""
+    if not push.any():
+        return
+    values, vectors = np.linalg.eigh(np.real(section.operator.S[0]))
+    null = vectors[:, values < _NULL * values[-1]]
+    work = np.abs(null.T @ push)
+    if work.max(initial=0.0) > _BALANCE * float(push.max()):
+        a, b = section.parts[_node_of(section, int(np.abs(null[:, work.argmax()]).argmax()))]
+        raise SpecError(
+            f"this grip is not in equilibrium: it would push {a} out of its seat in {b}, and nothing else holds it; give the interface an "
+            "interference, Unilateral(gap < 0)."
+        )
+
+
+def _path(section: RubbingSection, path: FloatArray, drives: Sequence[str] | None) -> FloatArray:
+    rows = np.asarray(path, dtype=float)
     p = len(section.strains)
-    if path.ndim != 2 or path.shape[1] != p or len(path) == 0 or not np.isfinite(path).all():
-        raise SpecError(f"a load path needs finite rows of {', '.join(section.strains)}; found shape {path.shape}.")
-    return path if not path[0].any() else np.concatenate([np.zeros((1, p)), path])
+    if rows.ndim != 2 or rows.shape[1] != p or len(rows) == 0 or not np.isfinite(rows).all():
+        names = ", ".join(drives or section.strains)
+        raise SpecError(f"a load path needs finite rows of {names}; found shape {rows.shape}.")
+    return rows if not rows[0].any() else np.concatenate([np.zeros((1, p)), rows])
 
 
 def _grip(section: RubbingSection, grip: float | FloatArray) -> FloatArray:

@@ -130,8 +130,7 @@ def strand_stiffness(
 ) -> PeriodicCell:
     """The cable with all its strands, on the nested cell: strands bonded where they touch, voids between them empty.
 
-    It has 2 10^5 hexahedra at least for the reference cable and takes some 100 iterations a load: minutes for tension and torsion,
-    longer with `bending`.
+    It has 2 10^5 hexahedra at least for the reference cable: minutes, see benchmarks/cell_3d.md.
     """
     tell = progress or (lambda fraction, sentence: None)
     mesh = nested_cell(cable, elements=elements, size=size, progress=lambda f, s: tell(0.05 * f, s))

@@ -53,7 +53,7 @@ class CondensedHarmonic:
     def frictionless(self) -> NDArray:
         """C - A^H S^+ A (p, p): the stiffness when every slip is free."""
         values, vectors = np.linalg.eigh(self.S)
-        kept = values > 1e-9 * values.max()
+        kept = values > 1e-9 * values.max(initial=0.0)
         part = vectors[:, kept].conj().T @ self.A
         return self.C - part.conj().T @ (part / values[kept, None])
 
@@ -114,3 +114,24 @@ def without_torque(harmonic: CondensedHarmonic) -> CondensedHarmonic:
         A[:, :1] - A[:, 1:] * ratio,
         harmonic.S - np.outer(A[:, 1], A[:, 1]) / C[1, 1],
     )
+
+
+def force_driven(harmonic: CondensedHarmonic, forced: NDArray[np.bool_]) -> CondensedHarmonic:
+    """The same energy with some forces f given in the place of their strains (a partial Legendre transform).
+
+    With G(e_s, F_f, x) = min over e_f of W - F_f e_f the loads are (e_s, F_f), in the places of their strains; C y + A^H x are the
+    forces at the strains that are left, and minus the strains where the force is given.
+    """
+    if not np.any(forced) or not len(harmonic.C):
+        return harmonic
+    C, A = harmonic.C, harmonic.A
+    f, s = np.flatnonzero(forced), np.flatnonzero(~forced)
+    soft = np.linalg.inv(C[np.ix_(f, f)])
+    across = soft @ C[np.ix_(f, s)]
+    new_C, new_A = np.zeros_like(C), np.zeros_like(A)
+    new_C[np.ix_(s, s)] = C[np.ix_(s, s)] - C[np.ix_(s, f)] @ across
+    new_C[np.ix_(f, s)], new_C[np.ix_(s, f)] = across, across.conj().T
+    new_C[np.ix_(f, f)] = -soft
+    new_A[:, s] = A[:, s] - A[:, f] @ across
+    new_A[:, f] = A[:, f] @ soft
+    return CondensedHarmonic(harmonic.order, new_C, new_A, harmonic.S - A[:, f] @ soft @ A[:, f].conj().T)

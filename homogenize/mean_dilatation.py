@@ -69,14 +69,14 @@ def bricks(mesh: SliceMesh | SweptCell) -> Bricks:
     return Bricks(corners[order], region_of[order])
 
 
-def stiffness_matrix(mesh: SliceMesh | SweptCell, lame_limit: float | None = None) -> sp.bsr_array:
+def stiffness_matrix(mesh: SliceMesh | SweptCell, lame: FloatArray | None = None) -> sp.bsr_array:
     """Stiffness of the mesh without constraints, (3n, 3n) in 3x3 blocks [N/m].
 
     Parameters
     ----------
     mesh : SliceMesh or SweptCell
-    lame_limit : float, optional
-        Largest lambda / G: softens what is nearly incompressible, for a preconditioner. The true lambda if not given.
+    lame : (regions,), optional
+        lambda of every region [Pa], for what is nearly incompressible a smaller one; that of the materials if not given.
 
     Raises
     ------
@@ -87,7 +87,7 @@ def stiffness_matrix(mesh: SliceMesh | SweptCell, lame_limit: float | None = Non
     n = len(mesh.points)
     indptr, columns, slot = _block_pattern(cells.corners, n)
     data = np.zeros((len(columns), 9))
-    matrices = _element_matrices(mesh, cells, lame_limit)
+    matrices = _element_matrices(mesh, cells, lame)
     while batch := list(islice(matrices, GATHERED)):
         where = slot[batch[0][0].start : batch[-1][0].stop].ravel()
         blocks = np.concatenate([b for _, b in batch])
@@ -97,12 +97,12 @@ def stiffness_matrix(mesh: SliceMesh | SweptCell, lame_limit: float | None = Non
     return sp.bsr_array((data.reshape(-1, 3, 3), columns, indptr), shape=(3 * n, 3 * n))
 
 
-def element_energies(mesh: SliceMesh | SweptCell, fields: NDArray) -> NDArray:
-    """Energy products u_i^H K_e u_j of every element, shape (e, m, m), of displacement fields (m, 3n)."""
+def element_energies(mesh: SliceMesh | SweptCell, fields: NDArray, lame: FloatArray | None = None) -> NDArray:
+    """Energy products u_i^H K_e u_j of every element, shape (e, m, m), of displacement fields (m, 3n); `lame` as for the matrix."""
     cells = bricks(mesh)
     U = np.asarray(fields).reshape(len(fields), -1, 3)
     found = np.empty((len(cells.corners), len(U), len(U)), dtype=U.dtype)
-    for part, blocks in _element_matrices(mesh, cells, None):
+    for part, blocks in _element_matrices(mesh, cells, lame):
         K = blocks.transpose(0, 1, 3, 2, 4).reshape(-1, 24, 24)
         local = U[:, cells.corners[part]].transpose(1, 0, 2, 3).reshape(-1, len(U), 24)
         found[part] = local.conj() @ K @ local.transpose(0, 2, 1)
@@ -114,6 +114,15 @@ def region_volumes(mesh: SliceMesh | SweptCell) -> FloatArray:
     cells = bricks(mesh)
     volume = np.concatenate([weight.sum(axis=1) for _, _, weight in _gradients(mesh, cells)])
     return np.asarray(np.bincount(cells.region_of, volume, len(mesh.regions)), dtype=float)
+
+
+def dilatations(mesh: SliceMesh | SweptCell) -> tuple[FloatArray, FloatArray]:
+    """Volume change of every element per displacement of its corners, int grad N dV (e, 8, 3) [m^2], and its volume (e,) [m^3]."""
+    found = [
+        (np.einsum("eq,eqax->eax", weight, gradient, optimize=True), weight.sum(axis=1))
+        for _, gradient, weight in _gradients(mesh, bricks(mesh))
+    ]
+    return np.concatenate([b for b, _ in found]), np.concatenate([v for _, v in found])
 
 
 def _block_pattern(
@@ -171,13 +180,12 @@ def _check_orientation(mesh: SliceMesh | SweptCell, cells: Bricks, start: int, d
 
 
 def _element_matrices(
-    mesh: SliceMesh | SweptCell, cells: Bricks, lame_limit: float | None
+    mesh: SliceMesh | SweptCell, cells: Bricks, lame: FloatArray | None
 ) -> Iterator[tuple[slice, FloatArray]]:
     """Chunks of elements with their matrices (e, a, b, x, y)."""
     G = np.array([r.material.G for r in mesh.regions])
-    lame = np.array([r.material.lame for r in mesh.regions])
-    if lame_limit is not None:
-        lame = np.minimum(lame, lame_limit * G)
+    if lame is None:
+        lame = np.array([r.material.lame for r in mesh.regions])
     for part, gradient, weight in _gradients(mesh, cells):
         region = cells.region_of[part]
         yield part, _blocks(gradient, weight, G[region], lame[region])

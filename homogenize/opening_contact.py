@@ -48,12 +48,14 @@ _ZERO = 1e-8
 
 @dataclass(frozen=True)
 class Unilateral:
-    """Contact without friction that can open; `gap` [m] of the unloaded parts, negative for an interference.
+    """Contact that can open; `gap` [m] of the unloaded parts, negative for an interference, and friction coefficient.
+
+    Friction makes the answer depend on the history of the load: :func:`homogenize.rubbing_section.contact_section`.
 
     Raises
     ------
     SpecError
-        If the gap is not finite.
+        If the gap is not finite, or the friction is negative.
 
     Examples
     --------
@@ -62,15 +64,18 @@ class Unilateral:
     """
 
     gap: float = 0.0
+    friction: float = 0.0
 
     def __post_init__(self) -> None:
         if not np.isfinite(self.gap):
             raise SpecError(f"the gap of an interface must be a finite length, found {self.gap:g} m.")
+        if not (np.isfinite(self.friction) and self.friction >= 0):
+            raise SpecError(f"a friction coefficient must be zero or positive, found {self.friction:g}.")
 
     @property
     def holds(self) -> bool:
-        """Never resists a slip."""
-        return False
+        """Resists a small slip wherever it is pressed; without friction it does not."""
+        return self.friction > 0
 
     @property
     def opens(self) -> bool:
@@ -80,7 +85,9 @@ class Unilateral:
     def describe(self) -> str:
         """The law in words."""
         word = "gap" if self.gap > 0 else "interference"
-        return "contact that can open" + (f", {word} {abs(self.gap):g} m" if self.gap else "")
+        words = ["contact that can open"]
+        words += [f"{word} {abs(self.gap):g} m"] if self.gap else []
+        return ", ".join([*words, f"friction {self.friction:g}"] if self.friction else words)
 
 
 @dataclass(frozen=True)
@@ -196,9 +203,9 @@ def opening_section(mesh: CrossSectionMesh, interfaces: Interfaces, free_twist: 
     laws = interfaces.laws.values()
     if not any(isinstance(law, Unilateral) for law in laws):
         raise SpecError("no interface can open: give at least one of them the law Unilateral().")
-    if any(isinstance(law, Coulomb) for law in laws):
+    if any(isinstance(law, Coulomb) or (isinstance(law, Unilateral) and law.friction) for law in laws):
         raise SpecError(
-            "friction beside contact that opens is not computed: make the rubbing interfaces frictionless or bonded."
+            "friction beside contact that opens depends on the history of the load: follow it with contact_section and friction_loop."
         )
     system = section_system(mesh, interfaces, opening=True)
     sliding = system.sliding

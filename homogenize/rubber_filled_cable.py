@@ -12,6 +12,15 @@ radius S0 c^3; incompressible rubber (S0 / c) (c^2 - s^2 / 2)^2 and 3 m A_r of t
 Of the
 free value, incompressible: m J cot^2 beta / r^2 and 3 m A_r. Quadratic form of Spencer's fibre-reinforced solid, Continuum
 Theory of the Mechanics of Fibre-Reinforced Composites, 1984, for one family of fibres.
+
+Even strain holds for conductors at the surface of the rubber. Conductors inside it, at r < R, press on the rubber within their
+ring, while the rubber outside gives way: :class:`RubberRing` lets it, with u = e_r x up to r and u = B x + C / x beyond (Lame),
+B + C / r^2 = e_r, no pressure at R; its term in the energy is
+
+.. math::
+   \pi (R^2 - r^2) \left[\tfrac l2 (\varepsilon + 2 B)^2 + m (\varepsilon^2 + 2 B^2)\right] + 2 \pi m C^2 (1/r^2 - 1/R^2) .
+
+This is the limit of many thin conductors; few of them also press into the rubber one by one, a compliance that falls with 1 / n.
 """
 
 from __future__ import annotations
@@ -45,9 +54,7 @@ class RubberFilledCable:
 
     def EA(self, free_twist: bool = False) -> float:
         """Axial stiffness [N], minimum over the lateral strain, and over the twist if the ends are free."""
-        W = self._hessian()
-        rest = [1, 2] if free_twist else [1]
-        return float(W[0, 0] - W[0, rest] @ np.linalg.solve(W[np.ix_(rest, rest)], W[rest, 0]))
+        return _minimised(self._hessian(), free_twist)
 
     @property
     def stiff_radius(self) -> float:
@@ -70,3 +77,44 @@ class RubberFilledCable:
         """m J cot^2 beta / r^2 + 3 m A_r [N]: the conductors unwind instead of stretching."""
         G, J = self.rubber.G, self.area**2 / (2 * np.pi)
         return float(G * J / (np.tan(self.beta) * self.r) ** 2 + 3 * G * self.area)
+
+
+@dataclass(frozen=True)
+class RubberRing:
+    """Conductors smeared over a ring in a cylinder of rubber: sum of E A [N] on radius r [m] at lay angle beta [rad]; `outer_radius` R [m].
+
+    Examples
+    --------
+    >>> rubber = Material("rubber", 8e6, 0.45, 1000.0)
+    >>> even = RubberFilledCable(26.8e6, 16e-3, 0.2, rubber, np.pi * 16e-3**2).EA()
+    >>> bool(np.isclose(RubberRing(26.8e6, 16e-3, 0.2, rubber, 16e-3).EA(), even))
+    True
+    """
+
+    conductors: float
+    r: float
+    beta: float
+    rubber: Material
+    outer_radius: float
+
+    def _hessian(self) -> np.ndarray:
+        """Second derivatives of the energy by (eps, e_r, tau)."""
+        G, lame, r, R = self.rubber.G, self.rubber.lame, self.r, self.outer_radius
+        W = RubberFilledCable(self.conductors, r, self.beta, self.rubber, np.pi * r**2)._hessian()
+        W[2, 2] += G * np.pi * (R**4 - r**4) / 2
+        if R > r:
+            conditions = [[1, 1 / r**2], [2 * lame + 2 * G, -2 * G / R**2]]
+            B, C = np.linalg.solve(conditions, [[0.0, 1.0, 0.0], [-lame, 0.0, 0.0]])
+            along, bulk = np.array([1.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0]) + 2 * B
+            even = lame * np.outer(bulk, bulk) + 2 * G * np.outer(along, along) + 4 * G * np.outer(B, B)
+            W += np.pi * (R**2 - r**2) * even + 4 * np.pi * G * (1 / r**2 - 1 / R**2) * np.outer(C, C)
+        return W
+
+    def EA(self, free_twist: bool = False) -> float:
+        """Axial stiffness [N], minimum over the lateral strains, and over the twist if the ends are free."""
+        return _minimised(self._hessian(), free_twist)
+
+
+def _minimised(W: np.ndarray, free_twist: bool) -> float:
+    rest = [1, 2] if free_twist else [1]
+    return float(W[0, 0] - W[0, rest] @ np.linalg.solve(W[np.ix_(rest, rest)], W[rest, 0]))

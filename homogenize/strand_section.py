@@ -85,28 +85,38 @@ def strand_section(conductor: Conductor, strands: str = "bonded", size: float | 
 
 
 def strand_mesh(conductor: Conductor, size: float | None = None) -> CrossSectionMesh:
-    """Triangles of the strands of a conductor, one region a strand; the voids between them are empty."""
+    """Triangles of the strands of a conductor, one region a strand; then of what fills its voids, if anything does."""
     strand = conductor.strand
     assert strand is not None
     radius, rate = strand.diameter / 2, turn_rate(conductor)
     size = DEFAULT_SIZE * radius if size is None else size
     nodes = ring_nodes(conductor, size, conductor.diameter)
-    section = conductor_section(conductor.layers, radius, conductor.diameter / 2, rate, nodes, size)
+    filled = conductor.voids is not None
+    section = conductor_section(
+        conductor.layers, radius, conductor.diameter / 2, rate, nodes, size, conductor.flat_width, filled
+    )
     material = Material(f"{strand.name} strand", strand.E, strand.nu, strand.density * strand.lay_factor)
     regions = tuple(
         Region(f"strand {k + 1}", "conductor", material, float(np.pi * radius**2 * np.hypot(1, rate * p.centre_radius)))
         for k, p in enumerate(section.strands)
     )
-    points, cells = quadratic_triangles(section.points, section.cells)
-    return CrossSectionMesh(points, cells, "triangle6", np.repeat(section.strand_of, 4), regions, rate)
+    region_of = np.repeat(section.strand_of, 4)
+    if conductor.voids is not None:
+        region_of = np.concatenate([region_of, np.full(len(section.void_cells), len(regions))])
+        area = conductor.area - sum(region.closed_form_area for region in regions)
+        regions = (*regions, Region("voids", "interstices", conductor.voids, float(area)))
+    points, cells = quadratic_triangles(section.points, section.cells, section.void_cells)
+    return CrossSectionMesh(points, cells, "triangle6", region_of, regions, rate)
 
 
-def quadratic_triangles(points: NDArray, quads: NDArray[np.int64]) -> tuple[NDArray, NDArray[np.int64]]:
-    """Six-node triangles with straight edges, four for each quadrilateral (m, 4), of the nodes (n, 2) that are used."""
+def quadratic_triangles(
+    points: NDArray, quads: NDArray[np.int64], others: NDArray[np.int64]
+) -> tuple[NDArray, NDArray[np.int64]]:
+    """Six-node triangles with straight edges, four for each quadrilateral (m, 4), then one for each of the `others` (t, 3)."""
     middle = len(points) + np.arange(len(quads))
     sides = np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1)
     triangles = np.concatenate([sides, np.broadcast_to(middle[:, None, None], (len(quads), 4, 1))], axis=-1)
-    used, corners = np.unique(triangles, return_inverse=True)
+    used, corners = np.unique(np.concatenate([triangles.reshape(-1, 3), others]), return_inverse=True)
     points, corners = np.concatenate([points, points[quads].mean(axis=1)])[used], corners.reshape(-1, 3)
     edges = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
     unique, number = np.unique(edges, axis=0, return_inverse=True)

@@ -230,7 +230,7 @@ def show_slice(cable: Cable, cell: PeriodicCell) -> None:
         ]
     table(f"{cable.name}: 3D periodic cell, all parts bonded", ("quantity", "value"), rows, right=(1,))
     counts = ", ".join(f"{name} {n}" for name, n in zip(cell.loads, cell.iterations, strict=True))
-    say(f"{cell.unknowns} unknowns; iterations of conjugate gradients: {counts}")
+    say(f"{cell.unknowns} unknowns; iterations: {counts}")
 
 
 def homogenization_record(result: Homogenization, phase: float = 0.0) -> dict[str, Any]:

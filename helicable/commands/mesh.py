@@ -73,6 +73,14 @@ def mesh(
             "--separate", metavar="PAIRS", help='Double the nodes of interfaces: "strand-strand,conductor-insulation".'
         ),
     ] = None,
+    flat_width: Annotated[
+        str | None,
+        typer.Option(
+            "--flat-width",
+            metavar="LENGTH",
+            help='Width of the flats on which strands touch, such as "0.2 mm"; the cable file\'s, or 0.3 strand radii, if left out.',
+        ),
+    ] = None,
     pictures: Annotated[
         Path | None,
         typer.Option(
@@ -94,11 +102,16 @@ def mesh(
     with progress("meshing") as tell:
         length = None if height is None else read_quantity(height, "m", "--height")
         period: CommonPeriod | None = None
+        flat = None if flat_width is None else read_quantity(flat_width, "m", "--flat-width")
+        if flat is not None and not deep:
+            raise SpecError(
+                "--flat-width: conductors are meshed as cylinders here, there are no strands that touch; leave it out."
+            )
         if deep:
             tolerance = _angle(lay_tolerance)
             period = cell_of(made, tolerance=tolerance)
             cell: SliceMesh | SweptCell = nested_cell(
-                made, elements=elements, height=length, lay_tolerance=tolerance, progress=tell
+                made, elements=elements, height=length, lay_tolerance=tolerance, flat_width=flat, progress=tell
             )
         else:
             cell = slice_of_size(made, elements, length, progress=tell)
@@ -173,6 +186,8 @@ def show_cell(cable: Cable, record: dict[str, Any]) -> None:
         for name, area in record["interfaces"].items()
     ]
     table("Interfaces", ("between", "area mm2", "nodes doubled"), rows, right=(1,))
+    for sentence in dict.fromkeys(re.sub(r" core \d+ ", " core ", note) for note in record["notes"]):
+        say(sentence)
 
 
 def _bars(counts: list[int], edges: list[float]) -> list[tuple[str, str, str]]:

@@ -180,7 +180,7 @@ def test_the_hand_of_the_lay_does_not_change_the_section():
 
 def test_size_and_ring_nodes_set_the_number_of_cells():
     counts = [len(conductor_section(*REFERENCE, n).cells) for n in (24, 48, 120)]
-    assert counts[0] < 200 < counts[1] < 500 < 1500 < counts[2]
+    assert counts[0] < 200 < counts[1] < 500 < 1000 < counts[2]
     assert len(conductor_section(*REFERENCE, 48, size=0.3e-3).cells) > 2 * counts[1]
     assert len(conductor_section(REFERENCE[0], *REFERENCE[1:], 96, size=1e-3).cells) < counts[1]
     assert len(conductor_section(*CASES["3 straight"][:4], 18).cells) < 70

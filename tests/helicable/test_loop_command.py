@@ -10,7 +10,7 @@ from geometry import cross_section_mesh, read_cable
 from geometry.errors import SpecError
 from helicable.interface_words import read_interface, read_laws
 from helicable.main import main
-from homogenize import Coulomb, Elastic, Frictionless, axial_friction, grip_per_tension
+from homogenize import Coulomb, Elastic, Frictionless, Unilateral, axial_friction, grip_per_tension
 
 CABLE = "example-three-core"
 COARSE = ("--size", "2.5 mm")
@@ -70,7 +70,7 @@ def test_area_is_heat_and_damping_is_their_share(tension):
     assert record["area"] == pytest.approx(area, rel=1e-9)
     assert record["dissipated"] == pytest.approx(heat[-1] - heat[-161], rel=1e-9)
     assert record["area"] == pytest.approx(record["dissipated"], rel=2e-3)  # steps of a fortieth of the amplitude
-    zeta = record["dissipated"] / (2 * np.pi * record["peak_force"] * 0.002)
+    zeta = record["dissipated"] / (2 * np.pi * np.ptp(force[last]) / 2 * np.ptp(strain[last]) / 2)
     assert record["damping_ratio"] == pytest.approx(zeta, rel=1e-12) and 0 < zeta < 2 / np.pi
     assert record["cone_violation"] < 1e-4
     assert strain[-161] == strain[-1] == strain.max() == 0.002 and strain.min() == -0.002
@@ -158,6 +158,8 @@ BAD_PAIRS = [
     ("armour-sheath=frictionless", 'no part is "armour"'),
     ("conductor-sheath=frictionless", "do not touch"),
     ("conductor-insulation=coulomb:0.3", "`helicable loop CABLE --interface"),
+    ("core-filler=opening", "close it here with frictionless"),
+    ("core-filler=opening:1 N", "cannot be read in m"),
 ]
 
 
@@ -181,9 +183,15 @@ BAD_LOOPS = [
     (["--amplitude", "1 1/m", "--cycles", "0"], "at least one cycle"),
     (["--amplitude", "1 1/m", "--harmonics", "0"], "at least one harmonic"),
     (["--amplitude", "1 1/m", "--free-twist"], "--load tension"),
-    (["--load", "tension", "--amplitude", "0.001", "--tension", "5 N"], "--grip"),
-    (["--amplitude", "1 1/m", "--interface", "conductor-insulation=frictionless"], "names no pair that rubs"),
+    (["--load", "tension", "--amplitude", "0.001", "--tension", "5 N"], "--tension-grips"),
+    (["--amplitude", "1 1/m", "--interface", "conductor-insulation=frictionless"], "names no pair that rubs or opens"),
     (["--amplitude", "1 1/m", "--interface", "conductor-sheath"], "do not touch"),
+    (["--amplitude", "1 1/m", "--control", "speed"], "choose strain or force"),
+    (["--control", "force"], 'such as "5 N m"'),
+    (["--amplitude", "1 1/m", "--control", "force"], "--amplitude"),
+    (["--amplitude", "-1 N m", "--control", "force"], "above zero"),
+    (["--load", "tension", "--amplitude", "1 GN", "--control", "force"], "where nothing rubs"),
+    (["--amplitude", "1 1/m", "--tension-grips"], "--tension-grips belongs to --load tension"),
     (["--amplitude", "1 1/m", "--interface", "armour-sheath"], 'no part is "armour"'),
 ]
 
@@ -193,3 +201,99 @@ def test_a_loop_that_cannot_be_is_one_sentence(arguments, words, capsys):
     assert main(["loop", CABLE, *COARSE, *arguments]) == 2
     err = " ".join(capsys.readouterr().err.split())
     assert words in err and "Traceback" not in err
+
+
+OPENING = ("--interface", "core-filler=opening", "--grip", "0 Pa", "--size", "4 mm")
+
+
+def test_parts_that_open_are_counted(tmp_path, capsys):
+    """Without grip cores part in compression: softer than in tension, where they are pressed; share and gap are printed and kept."""
+    record = run(tmp_path, "--load", "tension", "--amplitude", "0.002", "--steps", "10", *OPENING)
+    strain, force = (np.array(record["loop"][key]) for key in ("strain", "force"))
+    share, gap = (np.array(record["loop"][key]) for key in ("open_share", "largest_gap"))
+    assert force[strain == -0.002].max() > -0.5 * force[strain == 0.002].min()
+    assert record["slopes"]["open"] < record["slopes"]["last_step"] < record["slopes"]["frictionless"]
+    assert 0 < share.max() < 1 and share[0] == gap[0] == 0 and strain[gap.argmax()] == -0.002
+    out = " ".join(capsys.readouterr().out.split())
+    assert (
+        f"{100 * share.max():.1f} %" in out and f"{1e3 * gap.max():.4g} mm" in out and "largest gap is between" in out
+    )
+    with (tmp_path / "loop.csv").open() as file:
+        head, *rows = csv.reader(file)
+    assert head[3:] == ["open share [1]", "largest gap [m]"] and len(rows) == len(strain)
+    assert (tmp_path / "loop.png").stat().st_size > 30_000
+
+
+def test_a_gap_must_close_first(tmp_path):
+    """With a gap far above the motions all stays open: the slope is that of the open section throughout."""
+    arguments = ("--interface", "conductor-insulation=opening:5 mm+coulomb:0.3", "--grip", "0 Pa", "--size", "4 mm")
+    record = run(tmp_path, "--load", "torsion", "--amplitude", "1 deg/m", "--steps", "10", *arguments)
+    assert record["slopes"]["last_step"] == pytest.approx(record["slopes"]["open"], rel=1e-6)
+    assert min(record["loop"]["open_share"]) > 0.999 and record["dissipated"] < 1e-12
+
+
+def test_given_force_returns_the_loop_of_the_given_strain(tmp_path, tension):
+    """The tension that the strain loop reached, prescribed: the same stretch at the turn, the same first slope, the heat within 1 %."""
+    given = tension[0]
+    arguments = ("--load", "tension", "--grip", "0.1 MPa", "--steps", "100", "--control", "force")
+    found = run(tmp_path, *arguments, "--amplitude", f"{given['peak_force']} N")
+    assert max(found["loop"]["strain"]) == pytest.approx(0.002, rel=1e-4)  # another path of the steps
+    assert found["slopes"]["first_step"] == pytest.approx(
+        given["slopes"]["bonded"], rel=2e-3
+    )  # twice the step: some slip
+    assert found["dissipated"] == pytest.approx(given["dissipated"], rel=1e-2)
+
+
+def test_grip_follows_the_tension(tmp_path):
+    """Under tension the conductors are gripped and the bonded slope lasts longer than on the way back under compression."""
+    arguments = (
+        "--load",
+        "tension",
+        "--amplitude",
+        "0.002",
+        "--steps",
+        "10",
+        "--grip",
+        "1 kPa",
+        "--free-twist",
+        "--size",
+        "4 mm",
+    )
+    loose, gripped = run(tmp_path / "a", *arguments), run(tmp_path / "b", *arguments, "--tension-grips")
+    assert gripped["mean_grip"] > loose["mean_grip"] == pytest.approx(1e3)
+    assert gripped["peak_force"] > loose["peak_force"] * 1.001
+    assert gripped["cone_violation"] < 1e-4
+    low = [min(record["loop"]["force"]) for record in (loose, gripped)]
+    assert abs(low[1]) < gripped["peak_force"]
+
+
+def test_bending_of_parts_that_open_under_a_tension(tmp_path):
+    """The tension acts: it presses the cores; the loop starts when it is on, and both slopes stay between open and bonded."""
+    arguments = (
+        "--load",
+        "bending",
+        "--amplitude",
+        "0.5 1/m",
+        "--steps",
+        "10",
+        "--harmonics",
+        "1",
+        "--tension",
+        "200 N",
+    )
+    opens = ("--interface", "conductor-insulation=opening", "--grip", "0 Pa", "--size", "4 mm")
+    record = run(tmp_path, *arguments, *opens)
+    assert record["first_step"] > 0 and record["loop"]["strain"][record["first_step"]] == 0
+    slopes = record["slopes"]
+    for key in ("first_step", "last_step"):
+        assert slopes["open"] < slopes[key] < slopes["bonded"] * (1 + 1e-6)
+    assert 0 < max(record["loop"]["open_share"]) < 1
+
+
+def test_opening_words():
+    assert read_laws("core-filler=opening").laws == {"core-filler": Unilateral()}
+    assert read_laws("core-filler = opening : 0.05 mm + coulomb:0.2").laws == {"core-filler": Unilateral(5e-5, 0.2)}
+    with pytest.raises(SpecError, match="coulomb:COEFFICIENT only"):
+        read_laws("core-filler=opening+frictionless")
+    with pytest.raises(SpecError, match="cannot be read in m"):
+        read_laws("core-filler=opening:3 N")
