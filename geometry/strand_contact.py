@@ -11,8 +11,9 @@ its nearest neighbour, up to `HELD`; in a real conductor it would have settled t
 with the circle about the conductor, over an arc of the same width as near as its nodes allow, at least an edge to each side.
 
 How wide a flat is, is physics, not mesh: the bonded stiffness grows with the logarithm of the width. Hertz gives it for round rods and
-a known force (line_contact.py). Without a number the half-width is `FLAT` strand radii, an assumption: there a circle has left its tangent by 1.1 % of its radius, about
-half the gap that is closed here (`CLOSED`), and the overlap of the reference cable's strands (0.127 radii to each side) is spanned.
+a known force (line_contact.py). Without a number the half-width is `FLAT` strand radii, an assumption: there a circle has
+left its tangent by 1.1 % of its radius, about half the gap that is closed here (`CLOSED`), and the overlap of the reference
+cable's strands (0.127 radii to each side) is spanned.
 Strands whose round traces overlap share a flat at least as wide as the overlap.
 A mesh resolves flats down to a half-width of `NARROWEST` times the distance of its nodes.
 """

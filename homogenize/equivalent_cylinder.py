@@ -141,7 +141,7 @@ def _disc(material: TransverseIsotropy, radius: float, around: int = 32) -> Cros
     angle = step * np.arange(around)
     ring = radius * np.sqrt(step / np.sin(step)) * np.column_stack([np.cos(angle), np.sin(angle)])
     grid = disc_grid(ring)
-    points, cells = quadratic_triangles(grid.points, grid.cells)
+    points, cells = quadratic_triangles(grid.points, grid.cells, np.zeros((0, 3), dtype=np.int64))
     region = Region("cylinder", "conductor", material, float(np.pi * radius**2))  # type: ignore[arg-type]
     return CrossSectionMesh(
         points, cells, "triangle6", np.zeros(len(cells), dtype=np.int64), (region,), material.turn_rate or 0.0
