@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beam.element import DOF, reference_strains
-from beam.hermite import gauss_points, hermite_mass
+from beam.hermite import gauss_points
 from beam.section_law import DampingTimes, rod_inertia, rod_stiffness
 from geometry.errors import SpecError
 from homogenize.section_stiffness import SectionInertia, SectionStiffness
@@ -91,11 +91,6 @@ class Rod:
     def s(self) -> Array:
         """Arc length of the nodes in the stress-free shape [m], shape (n + 1,)."""
         return np.concatenate([[0.0], np.cumsum(self.lengths)])
-
-    @property
-    def masses(self) -> Array:
-        """Integrals of N N^T over the elements, shape (n, 4, 4) [m, m^2, m^3]."""
-        return np.array([hermite_mass(length) for length in self.lengths])
 
     def weight(self, gravity: Array) -> Array:
         """Nodal forces of the acceleration `gravity` (3,) [m/s^2], shape (n + 1, 12)."""

@@ -1,0 +1,253 @@
+r"""One time step by modified Newton iteration, compiled as a whole.
+
+The equations of motion hold at the end of the step, M(q) w + F(q, v, t) = 0 with the true acceleration w; the algorithmic
+acceleration a follows from (1 - alpha_m) a_{n+1} + alpha_m a_n = (1 - alpha_f) w_{n+1} + alpha_f w_n. For a constant mass
+matrix this is the method of Chung and Hulbert, force by force; it also is of second order where M depends on q.
+
+The factorised matrix comes from earlier steps and is renewed where the residual falls by less than a factor of two.
+
+Source: M. Arnold, O. Brüls, Multibody Syst. Dyn. 18 (2007) 185-202, doi 10.1007/s11044-007-9084-0.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beam.block_tridiagonal import invert_chain, sweep_chain
+from beam.compiled import kernel
+from beam.contact_force import contact_forces
+from beam.element import internal_force, kinetic_energy
+from beam.element_tangent import internal_tangent
+
+Array = NDArray[np.float64]
+
+CONVERGED, NOT_CONVERGED, NOT_FINITE, SINGULAR = 0, 1, 2, 3
+TOTALS = 5
+"""Elastic energy, damping power, kinetic energy, power of the held unknowns, potential of the constant forces."""
+
+
+class RodArrays(NamedTuple):
+    """What the kernels read of a rod."""
+
+    lengths: Array
+    x: Array
+    w: Array
+    H: Array
+    C: Array
+    C_damping: Array
+    damped: bool
+    E0: Array
+    m: float
+    J: Array
+    mass: Array
+
+
+class ContactArrays(NamedTuple):
+    """Surfaces one after the other, see :func:`beam.contact_force.contact_forces`, and room for what they report."""
+
+    P: Array
+    first: NDArray[np.int64]
+    xs: Array
+    ws: Array
+    anchors: Array
+    moved: Array
+    reports: Array
+    nodal: Array
+    cone: Array
+
+
+class StateArrays(NamedTuple):
+    """Positions, velocities, algorithmic and true accelerations, each (n + 1, 12)."""
+
+    q: Array
+    v: Array
+    a: Array
+    w: Array
+
+
+class MatrixArrays(NamedTuple):
+    """Blocks of the iteration matrix, see :func:`beam.block_tridiagonal.invert_chain`."""
+
+    D: Array
+    U: Array
+    L: Array
+    pivots: NDArray[np.int64]
+
+
+class Rule(NamedTuple):
+    """Coefficients of the method, step h, stopping rule, most iterations."""
+
+    am: float
+    af: float
+    gamma: float
+    beta: float
+    h: float
+    relative: float
+    absolute: float
+    iterations: int
+
+
+@kernel
+def predict(old: StateArrays, new: StateArrays, rule: Rule) -> None:
+    """Start of the iteration: the algorithmic acceleration goes on as it was."""
+    h = rule.h
+    for i in range(old.q.shape[0]):
+        for k in range(12):
+            a = old.a[i, k]
+            new.q[i, k] = old.q[i, k] + h * old.v[i, k] + 0.5 * h * h * a
+            new.v[i, k] = old.v[i, k] + h * a
+            new.a[i, k] = a
+            new.w[i, k] = (a - rule.af * old.w[i, k]) / (1.0 - rule.af)
+
+
+@kernel
+def hold(new: StateArrays, held: NDArray[np.int64], values: Array) -> None:
+    """Write prescribed positions, velocities, accelerations `values` (k, 3) into the unknowns `held` (k, 2)."""
+    for j in range(held.shape[0]):
+        i, k = held[j, 0], held[j, 1]
+        new.q[i, k], new.v[i, k], new.a[i, k], new.w[i, k] = values[j, 0], values[j, 1], values[j, 2], values[j, 2]
+
+
+@kernel
+def evaluate(
+    rod: RodArrays, contact: ContactArrays, external: Array, state: StateArrays, F: Array, S: Array, totals: Array
+) -> None:
+    """Write M w + F - external into `F` and the section forces into `S`; energies and powers into `totals`, `reports`."""
+    for i in range(F.shape[0]):
+        for k in range(12):
+            F[i, k] = -external[i, k]
+    totals[0], totals[1], totals[2] = internal_force(
+        state.q, state.v, state.w, True, rod.damped, rod.lengths, rod.H, rod.w, rod.C, rod.C_damping, rod.E0,
+        rod.m, rod.J, rod.mass, F, S,
+    )  # fmt: skip
+    none = rod.E0
+    contact_forces(
+        contact.P, contact.first, contact.xs, contact.ws, state.q, state.v, rod.lengths, contact.anchors,
+        contact.moved, F, contact.nodal, contact.nodal, contact.reports, contact.cone, False, False, 0.0,
+        none, none, none,
+    )  # fmt: skip
+
+
+@kernel
+def renew(
+    rod: RodArrays, contact: ContactArrays, held: NDArray[np.int64], state: StateArrays, matrix: MatrixArrays,
+    rule: Rule, F: Array,
+) -> int:  # fmt: skip
+    """Form and factorise the iteration matrix; `F` is room that is overwritten. Returns -1, or the singular node."""
+    D, U, L = matrix.D, matrix.U, matrix.L
+    D[:] = 0.0
+    U[:] = 0.0
+    L[:] = 0.0
+    speed = rule.gamma / (rule.beta * rule.h)
+    acceleration = (1.0 - rule.am) / ((1.0 - rule.af) * rule.beta * rule.h * rule.h)
+    internal_tangent(
+        state.q, state.v, state.w, True, speed, acceleration, rod.lengths, rod.x, rod.H, rod.w, rod.C, rod.C_damping,
+        rod.E0, rod.m, rod.J, rod.mass, D, U, L,
+    )  # fmt: skip
+    contact_forces(
+        contact.P, contact.first, contact.xs, contact.ws, state.q, state.v, rod.lengths, contact.anchors,
+        contact.moved, F, contact.nodal, contact.nodal, contact.reports, contact.cone, False, True, speed, D, U, L,
+    )  # fmt: skip
+    fix_blocks(held, D, U, L)
+    return invert_chain(D, U, L, matrix.pivots)
+
+
+@kernel
+def fix_blocks(held: NDArray[np.int64], D: Array, U: Array, L: Array) -> None:
+    """Replace rows and columns of the unknowns `held` (k, 2) by the identity."""
+    for j in range(held.shape[0]):
+        i, slot = held[j, 0], held[j, 1]
+        for k in range(D.shape[1]):
+            D[i, slot, k] = 0.0
+            D[i, k, slot] = 0.0
+            if i > 0:
+                L[i - 1, slot, k] = 0.0
+                U[i - 1, k, slot] = 0.0
+            if i < U.shape[0]:
+                U[i, slot, k] = 0.0
+                L[i, k, slot] = 0.0
+        D[i, slot, slot] = 1.0
+
+
+@kernel
+def residual_size(F: Array, held: NDArray[np.int64], R: Array) -> float:
+    """Copy the free rows of `F` into `R`; its length."""
+    for i in range(F.shape[0]):
+        for k in range(12):
+            R[i, k] = F[i, k]
+    for j in range(held.shape[0]):
+        R[held[j, 0], held[j, 1]] = 0.0
+    total = 0.0
+    for i in range(F.shape[0]):
+        part = 0.0
+        for k in range(12):
+            part += R[i, k] * R[i, k]
+        total += part
+    return np.sqrt(total)
+
+
+@kernel
+def correct(state: StateArrays, delta: Array, rule: Rule) -> None:
+    """Subtract Newton's step from positions, and what belongs to it from velocities and accelerations."""
+    h, beta = rule.h, rule.beta
+    speed, algorithmic = rule.gamma / (beta * h), 1.0 / (beta * h * h)
+    true = (1.0 - rule.am) / (1.0 - rule.af) * algorithmic
+    for i in range(delta.shape[0]):
+        for k in range(12):
+            d = delta[i, k]
+            state.q[i, k] -= d
+            state.v[i, k] -= speed * d
+            state.a[i, k] -= algorithmic * d
+            state.w[i, k] -= true * d
+
+
+@kernel
+def account(rod: RodArrays, external: Array, held: NDArray[np.int64], new: StateArrays, F: Array, totals: Array) -> None:
+    """Complete `totals` for an accepted state."""
+    totals[2] += kinetic_energy(new.v, rod.lengths, rod.m, rod.J, rod.mass)
+    power, potential = 0.0, 0.0
+    for j in range(held.shape[0]):
+        power += F[held[j, 0], held[j, 1]] * new.v[held[j, 0], held[j, 1]]
+    for i in range(external.shape[0]):
+        for k in range(12):
+            potential -= external[i, k] * new.q[i, k]
+    totals[3], totals[4] = power, potential
+
+
+@kernel
+def newton_step(
+    rod: RodArrays, contact: ContactArrays, external: Array, held: NDArray[np.int64], values: Array, old: StateArrays,
+    new: StateArrays, matrix: MatrixArrays, known: bool, rule: Rule, F: Array, S: Array, R: Array, totals: Array,
+) -> tuple[int, int, int, bool]:  # fmt: skip
+    """From the state `old` to `new`; `known` says that `matrix` holds a factorised matrix of this step length.
+
+    `R` keeps the last residual. Returns how it ended, the iterations, the factorisations, and whether `matrix` is usable.
+    """
+    predict(old, new, rule)
+    hold(new, held, values)
+    start, last, fresh, factored = np.inf, np.inf, 0, 0
+    for k in range(rule.iterations):
+        evaluate(rod, contact, external, new, F, S, totals)
+        size = (1.0 - rule.af) * residual_size(F, held, R)
+        if not size < np.inf:
+            return NOT_FINITE, k + 1, factored, known
+        if k == 0:
+            start = size
+        if size <= rule.relative * start + rule.absolute:
+            account(rod, external, held, new, F, totals)
+            return CONVERGED, k + 1, factored, known
+        if size > 1e6 * max(start, 1.0):
+            return NOT_CONVERGED, k + 1, factored, known
+        if not known or (size > 0.5 * last and k - fresh >= 2):
+            fresh = k
+            factored += 1
+            known = renew(rod, contact, held, new, matrix, rule, F) < 0
+            if not known:
+                return SINGULAR, k + 1, factored, known
+        last = size
+        sweep_chain(matrix.D, matrix.U, matrix.L, R)
+        correct(new, R, rule)
+    return NOT_CONVERGED, rule.iterations, factored, known
