@@ -34,15 +34,16 @@ def point_tangent(
         zj, sj = z[j], zdot[j]
         z[j], zdot[j] = zj + STEP, sj + factor * STEP
         gauss_force(z, zdot, C, C_damping, E0, E, rate, S, ahead)
-        if moving:
-            if j < 3:
-                acc[j] += factor_a * STEP
+        if moving and j < 3:
+            aj = acc[j]
+            acc[j] = aj + factor_a * STEP
             rotary_inertia(z, zdot, acc, J, ahead)
-            if j < 3:
-                acc[j] -= factor_a * STEP
+            acc[j] = aj
         z[j], zdot[j] = zj, sj
         for i in range(9):
             G[i, j] = (ahead[i] - here[i]) / STEP
+        if moving and j == 2:
+            gauss_force(z, zdot, C, C_damping, E0, E, rate, S, here)
 
 
 @kernel

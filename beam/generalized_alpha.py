@@ -22,9 +22,11 @@ O. C. Zienkiewicz, Y. M. Xie, Earthq. Eng. Struct. Dyn. 20 (1991) 871-887, doi 1
 
 from __future__ import annotations
 
+import copy
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,13 +63,16 @@ LEVELS = 14
 @dataclass(frozen=True)
 class StepSettings:
     """Largest step [s], spectral radius, stopping rule |R| <= relative |R_0| + absolute [N, N m], iterations a step, largest
-    own error of a step [m]."""
+    own error of a step [m].
+
+    `absolute` is 1e-5 of the sum of the sizes of the constant nodal forces if not given, and at least 1e-3 N.
+    """
 
     largest_step: float = 5e-3
     first_level: int = 4
     spectral_radius: float = 0.7
     relative: float = 1e-6
-    absolute: float = 1e-3
+    absolute: float | None = None
     iterations: int = 16
     adaptive: bool = True
     error: float = np.inf
@@ -85,6 +90,13 @@ class StepSettings:
         rho = self.spectral_radius
         am, af = (2 * rho - 1) / (rho + 1), rho / (rho + 1)
         return am, af, 0.5 - am + af, 0.25 * (1 - am + af) ** 2
+
+
+KEPT = (
+    "_state", "t", "counters", "outcome", "_anchors", "_anchors_before", "memory", "deepest", "step_error", "error_sum",
+    "_last_iterations", "_worst", "_ticks", "_level", "_easy", "_matrix", "_known", "_factor_step", "_factor", "_held_force",
+)  # fmt: skip
+"""What a run consists of besides its model and settings."""
 
 
 @dataclass
@@ -154,6 +166,9 @@ class Integrator:
         self._ticks = 0
         self._level = self.settings.first_level if self.settings.adaptive else 0
         self._easy = 0
+        size = 1e-5 * float(np.linalg.norm(model.external[:, 0:3], axis=1).sum())
+        given = self.settings.absolute
+        self._absolute = max(1e-3, size) if given is None else given
         self._make_room()
         self._initial_acceleration()
         self.ledger = EnergyLedger(model)
@@ -169,6 +184,32 @@ class Integrator:
         self._S, self._totals = np.zeros_like(model.rod.E0), np.zeros(TOTALS)
         self._moved, self._cone = np.empty_like(self._anchors), np.zeros(len(self._anchors))
         self._reports, self._nodal = np.zeros((len(model.surfaces), 7)), np.zeros((nodes, 3))
+
+    def checkpoint(self) -> dict[str, Any]:
+        """Everything that the rest of the run depends on, as arrays and plain values; see :mod:`beam.checkpoint`."""
+        kept = {name: copy.deepcopy(getattr(self, name)) for name in KEPT}
+        kept["ledger"] = {name: copy.deepcopy(x) for name, x in vars(self.ledger).items() if name != "model"}
+        kept["forces"] = copy.deepcopy(self._forces)
+        return kept
+
+    def restore(self, kept: dict[str, Any]) -> None:
+        """Go back to a :meth:`checkpoint` of a run of the same model with the same settings.
+
+        Raises
+        ------
+        SpecError
+            If it belongs to a rod of another size.
+        """
+        if kept["_state"].q.shape != self.q.shape or kept["_anchors"].shape != self._anchors.shape:
+            raise SpecError(
+                f"the checkpoint is of a rod with {len(kept['_state'].q)} nodes and {len(kept['_anchors'])} contact points; "
+                f"this one has {len(self.q)} and {len(self._anchors)}."
+            )
+        for name in KEPT:
+            setattr(self, name, copy.deepcopy(kept[name]))
+        for name, value in kept["ledger"].items():
+            setattr(self.ledger, name, copy.deepcopy(value))
+        self._forces = copy.deepcopy(kept["forces"])
 
     @property
     def q(self) -> Array:
@@ -202,7 +243,10 @@ class Integrator:
     @property
     def reaction(self) -> Array:
         """Force of the supports on the held unknowns, zero elsewhere, shape (n + 1, 12) [N, N m]."""
-        return np.where(self.model.free, 0.0, self._F)
+        out = np.zeros_like(self._F)
+        i, k = self.model.held.T
+        out[i, k] = self._held_force
+        return out
 
     def advance(self, steps: int, watch: Callable[[Integrator], None] | None = None) -> bool:
         """Go on by `steps` times the largest step; False if the run had to stop, see :attr:`outcome`."""
@@ -230,7 +274,7 @@ class Integrator:
         t = (self._ticks + size) * self.settings.largest_step / 2**LEVELS
         am, af, gamma, beta = self.settings.coefficients
         one = self.settings
-        rule = Rule(am, af, gamma, beta, h, one.relative, one.absolute, one.iterations)
+        rule = Rule(am, af, gamma, beta, h, one.relative, self._absolute, one.iterations)
         forces = self._compiled_step(t, rule) if self.model.law is None else self._step_with_law(t, rule)
         error, node = self._own_error(h, beta) if forces is not None else (0.0, 0)
         if forces is None or error > one.error:
@@ -264,6 +308,11 @@ class Integrator:
     def _accept(self, t: float, size: int, forces: Forces) -> None:
         self._state, self._trial = self._trial, self._state
         self.t = t
+        self._forces = None
+        if self.model.law is not None:
+            self._forces, self.memory = forces, forces.memory
+        i, k = self.model.held.T
+        self._held_force = forces.F[i, k]
         self._anchors_before, self._anchors = self._anchors, self.model.join(forces.moved)
         self._ticks += size
         self.counters.steps += 1
@@ -291,7 +340,6 @@ class Integrator:
         if code != CONVERGED:
             self._failed(code, t)
             return None
-        self._forces = None
         elastic, damping, kinetic, power, potential = self._totals.tolist()
         out = Forces(
             self._F, self._S, [self._moved], self._nodal, self._nodal, [], elastic=elastic, kinetic=kinetic,
@@ -318,7 +366,7 @@ class Integrator:
                 return None
             start = size if k == 0 else start
             if size <= rule.relative * start + rule.absolute:
-                self._last_iterations, self._forces, self._F, self.memory = k + 1, forces, forces.F, forces.memory
+                self._last_iterations = k + 1
                 return forces
             if size > 1e6 * max(start, 1.0):
                 break
@@ -365,7 +413,8 @@ class Integrator:
             0.0, state.q, state.v, self.anchors, memory=self.memory, dt=given, a=state.w
         )  # fmt: skip
         self.memory = self._forces.memory
-        self._F[:] = self._forces.F
+        i, k = model.held.T
+        self._held_force = self._forces.F[i, k]
 
     def _failed(self, code: int, t: float) -> None:
         R = self._R

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beam.compiled import kernel
-from beam.rotation_vector import rotation_coefficients
 from beam.strain import cross
 
 Array = NDArray[np.float64]
@@ -53,13 +52,14 @@ def times(C: Array, e0: float, e1: float, e2: float, e3: float, e4: float, e5: f
 def point_force(
     t0: float, t1: float, t2: float, u0: float, u1: float, u2: float, d0: float, d1: float, d2: float,
     s0: float, s1: float, s2: float, w0: float, w1: float, w2: float, v0: float, v1: float, v2: float,
-    C: Array, D: Array, E0: Array, e: int, g: int, damped: bool, S: Array,
+    a: float, b: float, c: float, db: float, dc: float, C: Array, D: Array, E0: Array, e: int, g: int, damped: bool,
+    S: Array,
 ) -> tuple[float, float, float, float, float, float, float, float, float, float, float]:  # fmt: skip
     """Stored energy and dissipated power per length, and the nine forces on (theta, theta', r'); writes `S`[e, g].
 
-    theta = t, theta' = u, r' = d; their velocities s, w, v count only if `damped`.
+    theta = t, theta' = u, r' = d; their velocities s, w, v count only if `damped`;
+    a to dc are :func:`beam.rotation_vector.rotation_coefficients`.
     """
-    a, b, c, db, dc = rotation_coefficients(t0 * t0 + t1 * t1 + t2 * t2)
     x0, x1, x2 = cross(t0, t1, t2, d0, d1, d2)
     y0, y1, y2 = cross(t0, t1, t2, x0, x1, x2)
     g0, g1, g2 = d0 - a * x0 + b * y0, d1 - a * x1 + b * y1, d2 - a * x2 + b * y2
@@ -112,15 +112,14 @@ def point_force(
 
 @kernel
 def rotary_force(
-    t0: float, t1: float, t2: float, s0: float, s1: float, s2: float, a: Array, k: int, H: Array, g: int,
-    length: float, J: Array,
+    t0: float, t1: float, t2: float, s0: float, s1: float, s2: float, b: float, c: float, db: float, dc: float,
+    a: Array, k: int, H: Array, g: int, length: float, J: Array,
 ) -> tuple[float, float, float, float]:  # fmt: skip
     """Kinetic energy per length and T^T (J omega_dot + omega x J omega) for theta = t, its velocity s, accelerations `a`."""
     n0, n1, n2, n3 = H[g, 0], H[g, 1] * length, H[g, 2], H[g, 3] * length
     a0 = n0 * a[k, 6] + n1 * a[k, 9] + (n2 * a[k + 1, 6] + n3 * a[k + 1, 9])
     a1 = n0 * a[k, 7] + n1 * a[k, 10] + (n2 * a[k + 1, 7] + n3 * a[k + 1, 10])
     a2 = n0 * a[k, 8] + n1 * a[k, 11] + (n2 * a[k + 1, 8] + n3 * a[k + 1, 11])
-    _, b, c, db, dc = rotation_coefficients(t0 * t0 + t1 * t1 + t2 * t2)
     x0, x1, x2 = cross(t0, t1, t2, s0, s1, s2)
     y0, y1, y2 = cross(t0, t1, t2, x0, x1, x2)
     k0, k1, k2 = cross(s0, s1, s2, x0, x1, x2)

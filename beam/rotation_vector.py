@@ -43,12 +43,13 @@ def rotation_coefficients(p2: float) -> tuple[float, float, float, float, float]
         db = -1 / 24 + p2 / 360 * (1 - p2 / (112 / 3) * (1 - p2 / 67.5))
         dc = -1 / 120 + p2 / 2520 * (1 - p2 / 48 * (1 - p2 / 82.5))
         return a, b, c, db, dc
+    inverse = 1.0 / p2
     p = np.sqrt(p2)
-    sine = np.sin(p)
-    a = sine / p
-    b = (1.0 - np.cos(p)) / p2
-    c = (p - sine) / (p2 * p)
-    return a, b, c, (a - 2.0 * b) / (2.0 * p2), (b - 3.0 * c) / (2.0 * p2)
+    sine, cosine = np.sin(0.5 * p), np.cos(0.5 * p)
+    a = 2.0 * sine * cosine / p
+    b = 2.0 * sine * sine * inverse
+    c = (1.0 - a) * inverse
+    return a, b, c, 0.5 * (a - 2.0 * b) * inverse, 0.5 * (b - 3.0 * c) * inverse
 
 
 def rotation_matrix(theta: Array) -> Array:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from beam.element import DOF, shape_on_one_branch
 from beam.hermite import hermite
 from beam.rod import GAUSS_X
 from beam.rotation_vector import rotation_matrix
@@ -47,8 +48,13 @@ def _interpolate_rotation(q: Array, lengths: Array, x: float) -> Array:
     N, dN = np.zeros(4), np.zeros(4)
     hermite(x, 1.0, N, dN)
     slope = lengths[:, None]
+    theta, turned = q[1:, 6:9].copy(), q[1:, 9:12].copy()
+    for e in np.nonzero(np.linalg.norm(q[:-1, 6:9] - theta, axis=1) > np.pi)[0]:
+        ends = np.empty((2, DOF))
+        shape_on_one_branch(np.ascontiguousarray(q), e, ends)
+        theta[e], turned[e] = ends[1, 6:9], ends[1, 9:12]
     first = N[0] * q[:-1, 6:9] + N[1] * slope * q[:-1, 9:12]
-    return first + N[2] * q[1:, 6:9] + N[3] * slope * q[1:, 9:12]
+    return first + N[2] * theta + N[3] * slope * turned
 
 
 def _to_nodes(values: Array) -> Array:
