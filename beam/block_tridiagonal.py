@@ -136,7 +136,7 @@ def solve_chain(D: Array, U: Array, L: Array, pivots: NDArray[np.int64], B: Arra
 
 
 @kernel
-def invert_chain(D: Array, U: Array, L: Array, pivots: NDArray[np.int64]) -> int:
+def invert_chain(D: Array, U: Array, L: Array, pivots: NDArray[np.int64]) -> int:  # noqa: C901 - loops over rows and columns
     """Factorise in place for :func:`sweep_chain`: the blocks become (D^-1)^T, (D^-1 U)^T, (D^-1 L)^T, in this sense explicit.
 
     Twice the work of :func:`factor_chain`, but a solution costs a tenth. Returns -1, or the singular block.
@@ -167,7 +167,7 @@ def invert_chain(D: Array, U: Array, L: Array, pivots: NDArray[np.int64]) -> int
 
 
 @kernel
-def sweep_chain(D: Array, U: Array, L: Array, B: Array) -> None:
+def sweep_chain(D: Array, U: Array, L: Array, B: Array) -> None:  # noqa: C901 - loops over rows and columns
     """Replace `B` (n, 12) by the solution; blocks of 12 rows from :func:`invert_chain`.
 
     Only products of a stored row with one number, which the processor does four at a time.

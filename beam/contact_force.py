@@ -183,7 +183,7 @@ def shapes_at(xs: Array, length: float, N: Array) -> None:
 
 
 @kernel
-def contact_force(
+def contact_force(  # noqa: C901 - loops over components
     p: Array, q: Array, v: Array, lengths: Array, xs: Array, ws: Array, anchors: Array, moved: Array,
     F: Array, nodal: Array, friction: Array, report: Array, cone: Array, collect: bool,
     want_tangent: bool, factor: float, D: Array, U: Array, L: Array,
@@ -208,9 +208,7 @@ def contact_force(
             shapes_at(xs, at, N)
         for g in range(xs.size):
             weight = ws[g] * at
-            fn, n0, n1, n2, t0, t1, t2, distance = point_contact(
-                p, e, g, q, v, N, anchors, moved, report, weight
-            )
+            fn, n0, n1, n2, t0, t1, t2, distance = point_contact(p, e, g, q, v, N, anchors, moved, report, weight)
             if fn < 0.0:
                 continue
             f0, f1, f2 = weight * (fn * n0 + t0), weight * (fn * n1 + t1), weight * (fn * n2 + t2)
@@ -244,7 +242,7 @@ def collect_point(
 
 @kernel
 def contact_forces(
-    P: Array, first: Array, xs: Array, ws: Array, q: Array, v: Array, lengths: Array, anchors: Array, moved: Array,
+    P: Array, first: NDArray[np.int64], xs: Array, ws: Array, q: Array, v: Array, lengths: Array, anchors: Array, moved: Array,
     F: Array, nodal: Array, friction: Array, reports: Array, cone: Array, collect: bool,
     want_tangent: bool, factor: float, D: Array, U: Array, L: Array,
 ) -> None:  # fmt: skip

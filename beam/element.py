@@ -27,7 +27,7 @@ from beam.compiled import kernel
 from beam.hermite import hermite, hermite_mass
 from beam.point_force import interpolate, point_force, rotary_force
 from beam.rotation_vector import accelerate_on_branch, force_on_branch, move_on_branch, rotation_coefficients
-from beam.strain import gauss_force, strain
+from beam.strain import strain
 
 Array = NDArray[np.float64]
 
@@ -151,13 +151,39 @@ def element_force(
             s0, s1, s2, w0, w1, w2, v0, v1, v2 = interpolate(v, k, H, g, length)
         ca, cb, cc, db, dc = rotation_coefficients(t0 * t0 + t1 * t1 + t2 * t2)
         stored, lost, f0, f1, f2, f3, f4, f5, f6, f7, f8 = point_force(
-            t0, t1, t2, u0, u1, u2, d0, d1, d2, s0, s1, s2, w0, w1, w2, v0, v1, v2,
-            ca, cb, cc, db, dc, C, C_damping, E0, e, g, damped, S,
+            t0,
+            t1,
+            t2,
+            u0,
+            u1,
+            u2,
+            d0,
+            d1,
+            d2,
+            s0,
+            s1,
+            s2,
+            w0,
+            w1,
+            w2,
+            v0,
+            v1,
+            v2,
+            ca,
+            cb,
+            cc,
+            db,
+            dc,
+            C,
+            C_damping,
+            E0,
+            e,
+            g,
+            damped,
+            S,
         )
         if moving:
-            turning, i0, i1, i2 = rotary_force(
-                t0, t1, t2, s0, s1, s2, cb, cc, db, dc, a, k, H, g, length, J
-            )
+            turning, i0, i1, i2 = rotary_force(t0, t1, t2, s0, s1, s2, cb, cc, db, dc, a, k, H, g, length, J)
             f0, f1, f2 = f0 + i0, f1 + i1, f2 + i2
             kinetic += w[g] * length * turning
         weight = w[g] * length

@@ -21,29 +21,34 @@ STEP = 1e-7
 
 
 @kernel
-def point_tangent(
+def point_tangent(  # noqa: C901 - loops over components
     z: Array, zdot: Array, acc: Array, moving: bool, factor: float, factor_a: float, C: Array, C_damping: Array,
     E0: Array, J: Array, room: Array, G: Array,
 ) -> None:  # fmt: skip
-    """Write the derivative of the nine forces by (theta, theta', r') into `G` (9, 9); `room` (5, 9) is work space."""
-    E, rate, S, here, ahead = room[0], room[1], room[2], room[3], room[4]
-    gauss_force(z, zdot, C, C_damping, E0, E, rate, S, here)
-    if moving:
-        rotary_inertia(z, zdot, acc, J, here)
-    for j in range(9):
-        zj, sj = z[j], zdot[j]
-        z[j], zdot[j] = zj + STEP, sj + factor * STEP
+    """Write the derivative of the nine forces by (theta, theta', r') into `G` (9, 9); `room` (7, 9) is work space."""
+    E, rate, S, here, ahead, still, turning = room[0], room[1], room[2], room[3], room[4], room[5], room[6]
+    for j in range(-1, 9):
+        zj, sj, aj = z[max(j, 0)], zdot[max(j, 0)], acc[min(max(j, 0), 2)]
+        if j >= 0:
+            z[j], zdot[j] = zj + STEP, sj + factor * STEP
         gauss_force(z, zdot, C, C_damping, E0, E, rate, S, ahead)
+        for i in range(9):
+            turning[i] = 0.0
         if moving and j < 3:
-            aj = acc[j]
-            acc[j] = aj + factor_a * STEP
-            rotary_inertia(z, zdot, acc, J, ahead)
-            acc[j] = aj
+            if j >= 0:
+                acc[j] = aj + factor_a * STEP
+            rotary_inertia(z, zdot, acc, J, turning)
+        if j < 0:
+            for i in range(9):
+                here[i], still[i] = ahead[i], turning[i]
+            continue
         z[j], zdot[j] = zj, sj
+        if j < 3:
+            acc[j] = aj
         for i in range(9):
             G[i, j] = (ahead[i] - here[i]) / STEP
-        if moving and j == 2:
-            gauss_force(z, zdot, C, C_damping, E0, E, rate, S, here)
+            if j < 3:
+                G[i, j] += (turning[i] - still[i]) / STEP
 
 
 @kernel
@@ -53,7 +58,7 @@ def internal_tangent(
 ) -> None:  # fmt: skip
     """Add dF/dq + factor dF/dv + factor_a dF/da to the blocks: `D` (n + 1) on, `U` (n) above and `L` (n) below the diagonal."""
     N, dN, Nz = np.empty(4), np.empty(4), np.empty(12)
-    z, zdot, acc, G, room = np.empty(9), np.empty(9), np.zeros(3), np.empty((9, 9)), np.empty((5, 9))
+    z, zdot, acc, G, room = np.empty(9), np.empty(9), np.zeros(3), np.empty((9, 9)), np.empty((7, 9))
     for e in range(lengths.size):
         if on_two_branches(q, e):
             difference_element(
@@ -82,26 +87,25 @@ def difference_element(
     """Tangent of one element by differences along its 24 unknowns."""
     Q, V, A = q[e : e + 2].copy(), v[e : e + 2].copy(), a[e : e + 2].copy()
     here, ahead, room = np.zeros((2, 12)), np.zeros((2, 12)), np.zeros((4, 2, 12))
-    S, rest, damped = np.zeros((1, w.size, 6)), E0[e : e + 1], True
-    force_on_two_branches(Q, V, A, moving, damped, 0, length, H, w, C, C_damping, rest, m, J, mass, here, S, room)
-    for b in range(2):
-        for j in range(12):
-            Q[b, j] += STEP
-            V[b, j] += factor * STEP
-            A[b, j] += factor_a * STEP
-            ahead[:] = 0.0
-            force_on_two_branches(
-                Q, V, A, moving, damped, 0, length, H, w, C, C_damping, rest, m, J, mass, ahead, S, room
-            )
-            Q[b, j], V[b, j], A[b, j] = q[e + b, j], v[e + b, j], a[e + b, j]
-            for i in range(12):
-                first, second = (ahead[0, i] - here[0, i]) / STEP, (ahead[1, i] - here[1, i]) / STEP
-                if b == 0:
-                    D[e, i, j] += first
-                    L[e, i, j] += second
-                else:
-                    U[e, i, j] += first
-                    D[e + 1, i, j] += second
+    S, rest = np.zeros((1, w.size, 6)), E0[e : e + 1]
+    for column in range(-1, 24):
+        b, j = max(column, 0) // 12, max(column, 0) % 12
+        step = STEP if column >= 0 else 0.0
+        Q[b, j], V[b, j], A[b, j] = q[e + b, j] + step, v[e + b, j] + factor * step, a[e + b, j] + factor_a * step
+        ahead[:] = 0.0
+        force_on_two_branches(Q, V, A, moving, True, 0, length, H, w, C, C_damping, rest, m, J, mass, ahead, S, room)
+        Q[b, j], V[b, j], A[b, j] = q[e + b, j], v[e + b, j], a[e + b, j]
+        if column < 0:
+            here[:] = ahead
+            continue
+        for i in range(12):
+            first, second = (ahead[0, i] - here[0, i]) / STEP, (ahead[1, i] - here[1, i]) / STEP
+            if b == 0:
+                D[e, i, j] += first
+                L[e, i, j] += second
+            else:
+                U[e, i, j] += first
+                D[e + 1, i, j] += second
 
 
 @kernel

@@ -65,7 +65,7 @@ class StepSettings:
     """Largest step [s], spectral radius, stopping rule |R| <= relative |R_0| + absolute [N, N m], iterations a step, largest
     own error of a step [m].
 
-    `absolute` is 1e-5 of the sum of the sizes of the constant nodal forces if not given, and at least 1e-3 N.
+    `absolute` is 3e-6 of the sum of the sizes of the constant nodal forces if not given, and at least 1e-3 N.
     """
 
     largest_step: float = 5e-3
@@ -166,7 +166,7 @@ class Integrator:
         self._ticks = 0
         self._level = self.settings.first_level if self.settings.adaptive else 0
         self._easy = 0
-        size = 1e-5 * float(np.linalg.norm(model.external[:, 0:3], axis=1).sum())
+        size = 3e-6 * float(np.linalg.norm(model.external[:, 0:3], axis=1).sum())
         given = self.settings.absolute
         self._absolute = max(1e-3, size) if given is None else given
         self._make_room()

@@ -205,7 +205,9 @@ def correct(state: StateArrays, delta: Array, rule: Rule) -> None:
 
 
 @kernel
-def account(rod: RodArrays, external: Array, held: NDArray[np.int64], new: StateArrays, F: Array, totals: Array) -> None:
+def account(
+    rod: RodArrays, external: Array, held: NDArray[np.int64], new: StateArrays, F: Array, totals: Array
+) -> None:
     """Complete `totals` for an accepted state."""
     totals[2] += kinetic_energy(new.v, rod.lengths, rod.m, rod.J, rod.mass)
     power, potential = 0.0, 0.0

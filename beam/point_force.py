@@ -66,7 +66,11 @@ def point_force(
     p0, p1, p2 = cross(t0, t1, t2, u0, u1, u2)
     q0, q1, q2 = cross(t0, t1, t2, p0, p1, p2)
     e0, e1, e2 = g0 - 1.0 - E0[e, g, 0], g1 - E0[e, g, 1], g2 - E0[e, g, 2]
-    e3, e4, e5 = u0 - b * p0 + c * q0 - E0[e, g, 3], u1 - b * p1 + c * q1 - E0[e, g, 4], u2 - b * p2 + c * q2 - E0[e, g, 5]
+    e3, e4, e5 = (
+        u0 - b * p0 + c * q0 - E0[e, g, 3],
+        u1 - b * p1 + c * q1 - E0[e, g, 4],
+        u2 - b * p2 + c * q2 - E0[e, g, 5],
+    )
     N0, N1, N2, M0, M1, M2 = times(C, e0, e1, e2, e3, e4, e5)
     stored = 0.5 * ((N0 * e0 + N1 * e1 + N2 * e2) + (M0 * e3 + M1 * e4 + M2 * e5))
     lost = 0.0

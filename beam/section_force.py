@@ -51,7 +51,7 @@ def _interpolate_rotation(q: Array, lengths: Array, x: float) -> Array:
     theta, turned = q[1:, 6:9].copy(), q[1:, 9:12].copy()
     for e in np.nonzero(np.linalg.norm(q[:-1, 6:9] - theta, axis=1) > np.pi)[0]:
         ends = np.empty((2, DOF))
-        shape_on_one_branch(np.ascontiguousarray(q), e, ends)
+        shape_on_one_branch(np.ascontiguousarray(q), int(e), ends)
         theta[e], turned[e] = ends[1, 6:9], ends[1, 9:12]
     first = N[0] * q[:-1, 6:9] + N[1] * slope * q[:-1, 9:12]
     return first + N[2] * theta + N[3] * slope * turned
