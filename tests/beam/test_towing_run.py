@@ -27,7 +27,9 @@ def test_every_variable_has_unit_and_meaning(run):
     for name, variable in data.data_vars.items():
         assert variable.attrs["units"] and variable.attrs["long_name"], name
         assert np.isfinite(variable.values).all(), name
-    assert data.sizes == {"time": 61, "node": 101, "axis": 3, "section_axis": 3, "source": 9}
+    assert data.sizes == {
+        "time": 61, "node": 101, "axis": 3, "section_axis": 3, "source": 9, "element": 100, "gauss": 3, "strain": 6, "surface": 3,
+    }  # fmt: skip
     np.testing.assert_allclose(data["time"].values, np.arange(61) * 0.05, rtol=0, atol=1e-12)
 
 
