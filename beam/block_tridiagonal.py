@@ -10,6 +10,8 @@ Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., section 4.5.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -166,34 +168,50 @@ def invert_chain(D: Array, U: Array, L: Array, pivots: NDArray[np.int64]) -> int
     return -1
 
 
-@kernel
-def sweep_chain(D: Array, U: Array, L: Array, B: Array) -> None:  # noqa: C901 - loops over rows and columns
-    """Replace `B` (n, 12) by the solution; blocks of 12 rows from :func:`invert_chain`.
+def sweep_of(b: int) -> Callable[[Array, Array, Array, Array], None]:  # noqa: C901 - loops over rows and columns
+    """A kernel that replaces `B` (n, b) by the solution; blocks of `b` rows from :func:`invert_chain`.
 
-    Only products of a stored row with one number, which the processor does four at a time.
+    Only products of a stored row with one number, which the processor does four at a time where `b` is a constant.
     """
-    n = D.shape[0]
-    y = np.empty(12)
-    for i in range(n):
-        for r in range(12):
-            y[r] = 0.0
-        for k in range(12):
-            x = B[i, k]
-            for r in range(12):
-                y[r] += D[i, k, r] * x
-        if i > 0:
-            for k in range(12):
-                x = B[i - 1, k]
-                for r in range(12):
-                    y[r] -= L[i - 1, k, r] * x
-        for r in range(12):
-            B[i, r] = y[r]
-    for i in range(n - 2, -1, -1):
-        for r in range(12):
-            y[r] = B[i, r]
-        for k in range(12):
-            x = B[i + 1, k]
-            for r in range(12):
-                y[r] -= U[i, k, r] * x
-        for r in range(12):
-            B[i, r] = y[r]
+
+    @kernel
+    def sweep(D: Array, U: Array, L: Array, B: Array) -> None:  # noqa: C901
+        n = D.shape[0]
+        y = np.empty(b)
+        for i in range(n):
+            for r in range(b):
+                y[r] = 0.0
+            for k in range(b):
+                x = B[i, k]
+                for r in range(b):
+                    y[r] += D[i, k, r] * x
+            if i > 0:
+                for k in range(b):
+                    x = B[i - 1, k]
+                    for r in range(b):
+                        y[r] -= L[i - 1, k, r] * x
+            for r in range(b):
+                B[i, r] = y[r]
+        for i in range(n - 2, -1, -1):
+            for r in range(b):
+                y[r] = B[i, r]
+            for k in range(b):
+                x = B[i + 1, k]
+                for r in range(b):
+                    y[r] -= U[i, k, r] * x
+            for r in range(b):
+                B[i, r] = y[r]
+
+    return sweep
+
+
+sweep_12, sweep_6 = sweep_of(12), sweep_of(6)
+
+
+@kernel
+def sweep_chain(D: Array, U: Array, L: Array, B: Array) -> None:
+    """Replace `B` (n, b) by the solution; blocks of b = 12 or 6 rows from :func:`invert_chain`."""
+    if D.shape[1] == 6:
+        sweep_6(D, U, L, B)
+    else:
+        sweep_12(D, U, L, B)

@@ -145,18 +145,17 @@ class Integrator:
         self.model = model
         self.settings = settings or StepSettings()
         zero = np.zeros_like(model.q0)
-        start_v = zero if v is None else v
-        self._state = StateArrays(*(np.array(x, dtype=float, order="C") for x in (q, start_v, zero, zero)))
+        start = (model.rod.columns(q), zero if v is None else model.rod.columns(v), zero, zero)
+        self._state = StateArrays(*(np.array(x, dtype=float, order="C") for x in start))
         self._trial = StateArrays(*(np.zeros_like(x) for x in self._state))
         self.t = 0.0
         self.counters = Counters()
         self.outcome = Outcome()
         turn_back(*self._state)
         model.prescribe(0.0, self.q, self.v, self.a)
-        start = anchors
-        if start is None:
-            start = model.forces(0.0, self.q, self.v, model.fresh_anchors(), friction=False).moved
-        self._anchors = self._anchors_before = model.join(start)
+        if anchors is None:
+            anchors = model.forces(0.0, self.q, self.v, model.fresh_anchors(), friction=False).moved
+        self._anchors = self._anchors_before = model.join(anchors)
         self.memory = memory
         self.deepest: tuple[float, str] = (0.0, "")
         self.step_error: tuple[float, str] = (0.0, "")
@@ -175,12 +174,12 @@ class Integrator:
         self.ledger.start(self.forces)
 
     def _make_room(self) -> None:
-        model, nodes = self.model, self.model.rod.nodes
-        blocks = Blocks.zeros(nodes)
-        self._matrix = MatrixArrays(blocks.D, blocks.U, blocks.L, np.zeros((nodes, 12), dtype=np.int64))
+        model, nodes, dof = self.model, self.model.rod.nodes, self.model.rod.dof
+        blocks = Blocks.zeros(nodes, dof)
+        self._matrix = MatrixArrays(blocks.D, blocks.U, blocks.L, np.zeros((nodes, dof), dtype=np.int64))
         self._known, self._factor_step = False, 0.0
         self._factor: Factor | None = None
-        self._F, self._R = np.zeros((nodes, 12)), np.zeros((nodes, 12))
+        self._F, self._R = np.zeros((nodes, dof)), np.zeros((nodes, dof))
         self._S, self._totals = np.zeros_like(model.rod.E0), np.zeros(TOTALS)
         self._moved, self._cone = np.empty_like(self._anchors), np.zeros(len(self._anchors))
         self._reports, self._nodal = np.zeros((len(model.surfaces), 7)), np.zeros((nodes, 3))
@@ -382,7 +381,7 @@ class Integrator:
 
     def _renew(self, t: float, rule: Rule) -> None:
         model, new = self.model, self._trial
-        blocks = Blocks.zeros(model.rod.nodes)
+        blocks = Blocks.zeros(model.rod.nodes, model.rod.dof)
         speed = rule.gamma / (rule.beta * rule.h)
         acceleration = (1 - rule.am) / ((1 - rule.af) * rule.beta * rule.h**2)
         model.forces(
@@ -400,7 +399,7 @@ class Integrator:
         model, state = self.model, self._state
         given = LONG if self.memory is None else None
         for _ in range(3):
-            blocks = Blocks.zeros(model.rod.nodes)
+            blocks = Blocks.zeros(model.rod.nodes, model.rod.dof)
             self._forces = model.forces(
                 0.0, state.q, state.v, self.anchors, memory=self.memory, dt=given, a=state.w, blocks=blocks, factor_a=1e9
             )  # fmt: skip

@@ -19,8 +19,7 @@ from numpy.typing import NDArray
 from beam.block_tridiagonal import invert_chain, sweep_chain
 from beam.compiled import kernel
 from beam.contact_force import contact_forces
-from beam.element import internal_force, kinetic_energy
-from beam.element_tangent import internal_tangent
+from beam.element_choice import internal_force, internal_tangent, kinetic_energy
 
 Array = NDArray[np.float64]
 
@@ -60,7 +59,7 @@ class ContactArrays(NamedTuple):
 
 
 class StateArrays(NamedTuple):
-    """Positions, velocities, algorithmic and true accelerations, each (n + 1, 12)."""
+    """Positions, velocities, algorithmic and true accelerations, each (n + 1, dof)."""
 
     q: Array
     v: Array
@@ -95,7 +94,7 @@ def predict(old: StateArrays, new: StateArrays, rule: Rule) -> None:
     """Start of the iteration: the algorithmic acceleration goes on as it was."""
     h = rule.h
     for i in range(old.q.shape[0]):
-        for k in range(12):
+        for k in range(old.q.shape[1]):
             a = old.a[i, k]
             new.q[i, k] = old.q[i, k] + h * old.v[i, k] + 0.5 * h * h * a
             new.v[i, k] = old.v[i, k] + h * a
@@ -117,7 +116,7 @@ def evaluate(
 ) -> None:
     """Write M w + F - external into `F` and the section forces into `S`; energies and powers into `totals`, `reports`."""
     for i in range(F.shape[0]):
-        for k in range(12):
+        for k in range(F.shape[1]):
             F[i, k] = -external[i, k]
     totals[0], totals[1], totals[2] = internal_force(
         state.q, state.v, state.w, True, rod.damped, rod.lengths, rod.H, rod.w, rod.C, rod.C_damping, rod.E0,
@@ -176,14 +175,14 @@ def fix_blocks(held: NDArray[np.int64], D: Array, U: Array, L: Array) -> None:
 def residual_size(F: Array, held: NDArray[np.int64], R: Array) -> float:
     """Copy the free rows of `F` into `R`; its length."""
     for i in range(F.shape[0]):
-        for k in range(12):
+        for k in range(F.shape[1]):
             R[i, k] = F[i, k]
     for j in range(held.shape[0]):
         R[held[j, 0], held[j, 1]] = 0.0
     total = 0.0
     for i in range(F.shape[0]):
         part = 0.0
-        for k in range(12):
+        for k in range(F.shape[1]):
             part += R[i, k] * R[i, k]
         total += part
     return np.sqrt(total)
@@ -196,7 +195,7 @@ def correct(state: StateArrays, delta: Array, rule: Rule) -> None:
     speed, algorithmic = rule.gamma / (beta * h), 1.0 / (beta * h * h)
     true = (1.0 - rule.am) / (1.0 - rule.af) * algorithmic
     for i in range(delta.shape[0]):
-        for k in range(12):
+        for k in range(delta.shape[1]):
             d = delta[i, k]
             state.q[i, k] -= d
             state.v[i, k] -= speed * d
@@ -214,7 +213,7 @@ def account(
     for j in range(held.shape[0]):
         power += F[held[j, 0], held[j, 1]] * new.v[held[j, 0], held[j, 1]]
     for i in range(external.shape[0]):
-        for k in range(12):
+        for k in range(external.shape[1]):
             potential -= external[i, k] * new.q[i, k]
     totals[3], totals[4] = power, potential
 

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from beam.contact_force import PARAMETERS, contact_forces
-from beam.element import DOF, UNIT_MASS, internal_force, kinetic_energy, unit_shapes
-from beam.element_tangent import add_mass, internal_tangent
+from beam.element import DOF, UNIT_MASS, unit_shapes
+from beam.element_choice import add_mass, internal_force, internal_tangent, kinetic_energy
 from beam.hermite import gauss_points
 from beam.motion import Turn
 from beam.newton_step import RodArrays, fix_blocks
@@ -28,16 +28,6 @@ from beam.surface import Surface, Travel
 from geometry.errors import SpecError
 
 Array = NDArray[np.float64]
-
-FIELDS = {
-    "r": slice(0, 3),
-    "x": slice(0, 1),
-    "y": slice(1, 2),
-    "z": slice(2, 3),
-    "r'": slice(3, 6),
-    "theta": slice(6, 9),
-    "theta'": slice(9, 12),
-}
 
 
 @dataclass(frozen=True)
@@ -84,16 +74,16 @@ class Forces:
 
 @dataclass
 class Blocks:
-    """Block-tridiagonal matrix: `D` (n, 12, 12), `U` and `L` (n - 1, 12, 12)."""
+    """Block-tridiagonal matrix: `D` (n, dof, dof), `U` and `L` (n - 1, dof, dof)."""
 
     D: Array
     U: Array
     L: Array
 
     @classmethod
-    def zeros(cls, nodes: int) -> Blocks:
+    def zeros(cls, nodes: int, dof: int = DOF) -> Blocks:
         """Empty matrix of `nodes` block rows."""
-        shape = (DOF, DOF)
+        shape = (dof, dof)
         return cls(np.zeros((nodes, *shape)), np.zeros((nodes - 1, *shape)), np.zeros((nodes - 1, *shape)))
 
 
@@ -103,9 +93,9 @@ class RodModel:
 
     Parameters
     ----------
-    rod : Rod
+    rod : Rod or AncfCable
     q0 : (n + 1, 12) array
-        Starting shape; held fields keep its values.
+        Starting shape; held fields keep its values. Of the ANCF cable also its part (n + 1, 6), which is what is kept.
     supports : sequence of Support
     gravity : (3,) array_like
         Acceleration [m/s^2].
@@ -128,12 +118,19 @@ class RodModel:
 
     def __post_init__(self) -> None:
         shape = (self.rod.nodes, DOF)
+        if self.law is not None and self.rod.dof != DOF:
+            raise SpecError("a section law with internal state needs the rod, whose section can twist and shear.")
+        if self.q0.shape[1:] == (DOF,):
+            self.q0 = self.rod.columns(self.q0)
+        if self.load is not None and self.load.shape[1:] == (DOF,):
+            self.load = self.rod.load_columns(self.load)
+        shape = (self.rod.nodes, self.rod.dof)
         if self.q0.shape != shape or (self.load is not None and self.load.shape != shape):
             raise SpecError(f"the starting shape and the load of a rod with {shape[0]} nodes must have shape {shape}.")
         self.free = np.ones(shape, dtype=bool)
         for support in self.supports:
             for name in support.held:
-                self.free[support.node, FIELDS[name]] = False
+                self.free[support.node, self.rod.slots(name, self.q0[support.node])] = False
         self.weight = self.rod.weight(np.asarray(self.gravity, dtype=float))
         self._external = self.weight if self.load is None else self.weight + self.load
         self.held = np.argwhere(~self.free)
@@ -146,7 +143,7 @@ class RodModel:
         self.first = np.concatenate([[0], np.cumsum([s.points for s in self.surfaces])]).astype(np.int64)
         self.xs = np.concatenate([np.empty(0), *(x for x, _ in points)])
         self.ws = np.concatenate([np.empty(0), *(w for _, w in points)])
-        self._empty = Blocks.zeros(2)
+        self._empty = Blocks.zeros(2, self.rod.dof)
 
     @property
     def external(self) -> Array:
@@ -291,8 +288,10 @@ class RodModel:
     def inertia(self, a: Array, q: Array | None = None, v: Array | None = None) -> Array:
         """M(q) a with the gyroscopic moments of `v`, shape (n + 1, 12); unturned and at rest if `q` is not given."""
         rod = self.arrays
-        still = np.zeros_like(a)
-        q, v = (still if q is None else q), (still if v is None else v)
+        if q is None:
+            q = np.zeros_like(a)
+            q[:, 3] = 1.0
+        v = np.zeros_like(a) if v is None else v
         out = np.zeros_like(a)
         law = (0 * rod.C, 0 * rod.C, rod.E0, rod.m, rod.J, rod.mass)
         internal_force(q, v, a, True, False, rod.lengths, rod.H, rod.w, *law, out, np.empty_like(rod.E0))

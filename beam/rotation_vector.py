@@ -146,9 +146,11 @@ def force_on_branch(theta: Array, slope: Array, force: Array, slope_force: Array
 def turn_back(q: Array, v: Array, a: Array, b: Array) -> int:
     """Take the nodes of `q` (n, 12) that turned further than :data:`LARGEST_ROTATION` to the other branch, all in place.
 
-    `v` are the velocities, `a` and `b` two accelerations. Returns how many nodes were taken.
+    `v` are the velocities, `a` and `b` two accelerations. Returns how many nodes were taken; none of a cable, which has no rotations.
     """
     count = 0
+    if q.shape[1] < 9:
+        return count
     for i in range(q.shape[0]):
         for _ in range(64):
             theta, slope, rate, slope_rate = q[i, 6:9], q[i, 9:12], v[i, 6:9], v[i, 9:12]

@@ -91,7 +91,7 @@ def equilibrium(
         outcome is not completed, `q` is the last shape that was reached and `memory` the one before the load step.
     """
     settings = settings or StaticSettings()
-    q = (model.q0 if q is None else q).copy()
+    q = (model.q0 if q is None else model.rod.columns(q)).copy()
     rest, unused = np.zeros_like(q), np.zeros_like(q)
     model.prescribe(t, q, unused, unused)
     unused[:] = 0.0
@@ -139,7 +139,7 @@ def _step(
     trial, rest = q.copy(), np.zeros_like(q)
     start = np.inf
     for k in range(settings.iterations):
-        blocks = Blocks.zeros(model.rod.nodes)
+        blocks = Blocks.zeros(model.rod.nodes, model.rod.dof)
         forces = forces_of(t, trial, rest, anchors, friction=False, blocks=blocks)
         residual = np.where(model.free, forces.F + model.inertia((trial - q) / h**2), 0.0)
         size = float(np.linalg.norm(residual))
