@@ -83,6 +83,13 @@ def test_contact_carries_the_weight(run):
     assert float(data["contact_force"].values[:, 1].sum()) + supports == pytest.approx(weight, rel=2e-3)
 
 
+def test_upper_strand_slips_and_lower_strand_sticks(run):
+    """|t| = mu f_n on the deck behind the shearer; below it in the trough near the supply, which does not move."""
+    use = run.dataset["friction_use"].isel(time=-1)
+    np.testing.assert_allclose(use.sel(surface="deck").values[80:98], 1.0, rtol=1e-9)
+    assert use.sel(surface="trough").values[5:20].max() < 0.99
+
+
 def test_energy_is_closed(run):
     """The balance closes to 1e-5 of the throughput."""
     assert abs(run.balance_error) < 1e-5

@@ -9,8 +9,8 @@ from helicable.main import main
 
 CABLE = "mcpt-1.9-3.3-3x35"
 VERBS = (
-    "cables", "show", "mesh", "homogenize", "loop", "stress", "tow", "check", "compare", "explain", "add", "next", "effects", "demo",
-    "verify",
+    "cables", "show", "mesh", "homogenize", "loop", "stress", "tow", "sweep", "check", "compare", "explain", "add", "next", "effects",
+    "demo", "verify",
 )  # fmt: skip
 
 
