@@ -122,6 +122,10 @@ class AncfCable(Rod):
         E[..., 3:6] = np.einsum("egij,egi->egj", R, E[..., 3:6])
         return E
 
+    def moment(self, q: Array, f: Array) -> Array:
+        """Moment (3,) [N m] of the generalised forces `f` (6,) on a node with the values `q` (6,): r' x f of the slope."""
+        return np.cross(q[3:6], f[3:6])
+
     def in_section_axes(self, q: Array, S: Array) -> Array:
         """Section forces `S` (n, 3, 6) of the kernels in section axes, with the shear force."""
         R, turned = self._gauss_axes(q), self._global_forces(q, S)

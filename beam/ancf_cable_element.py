@@ -57,11 +57,11 @@ def bending_shapes(x: float, length: float, dN: Array, ddN: Array) -> None:
 
 @kernel
 def derivative(q: Array, e: int, dN: Array) -> tuple[float, float, float]:
-    """Sum of shape functions times nodal values of element `e`."""
+    """Sum of derivatives of shape functions times nodal values of element `e`; of positions only the difference enters."""
     return (
-        (dN[0] * q[e, 0] + dN[1] * q[e, 3]) + (dN[2] * q[e + 1, 0] + dN[3] * q[e + 1, 3]),
-        (dN[0] * q[e, 1] + dN[1] * q[e, 4]) + (dN[2] * q[e + 1, 1] + dN[3] * q[e + 1, 4]),
-        (dN[0] * q[e, 2] + dN[1] * q[e, 5]) + (dN[2] * q[e + 1, 2] + dN[3] * q[e + 1, 5]),
+        dN[2] * (q[e + 1, 0] - q[e, 0]) + (dN[1] * q[e, 3] + dN[3] * q[e + 1, 3]),
+        dN[2] * (q[e + 1, 1] - q[e, 1]) + (dN[1] * q[e, 4] + dN[3] * q[e + 1, 4]),
+        dN[2] * (q[e + 1, 2] - q[e, 2]) + (dN[1] * q[e, 5] + dN[3] * q[e + 1, 5]),
     )
 
 

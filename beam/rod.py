@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beam.element import DOF, reference_strains
+from beam.end_reaction import global_moment
 from beam.hermite import gauss_points
 from beam.section_force import nodal_section_forces
 from beam.section_law import DampingTimes, rod_inertia, rod_stiffness
@@ -139,6 +140,10 @@ class Rod:
         E = np.empty_like(self.E0)
         reference_strains(np.ascontiguousarray(q), self.lengths, GAUSS_X, E)
         return E - self.E0
+
+    def moment(self, q: Array, f: Array) -> Array:
+        """Moment (3,) [N m] in global axes of the generalised forces `f` (dof,) on a node with the values `q` (dof,)."""
+        return global_moment(q[6:9], f[6:9])
 
     def in_section_axes(self, q: Array, S: Array) -> Array:
         """Section forces `S` (n, 3, 6) of the kernels in section axes."""

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beam.ancf_cable import AncfCable
 from beam.checkpoint import write_checkpoint
 from beam.generalized_alpha import Integrator, StepSettings
 from beam.incline_formula import STANDARD_GRAVITY
@@ -41,15 +42,19 @@ Progress = Callable[[float, str], None]
 
 logger = logging.getLogger(__name__)
 
+ELEMENTS: dict[str, type[Rod]] = {kind.name: kind for kind in (Rod, AncfCable)}
 
-def towing_model(scenario: Scenario, section: SectionStiffness, inertia: SectionInertia) -> RodModel:
+
+def towing_model(
+    scenario: Scenario, section: SectionStiffness, inertia: SectionInertia, law: SectionLaw | None = None
+) -> RodModel:
     """The mechanical problem of a scenario; `inertia` is the cable's, the clamps' mass is added here."""
     cable, contact, layout = scenario.cable, scenario.contact, scenario.layout
     with_clamps = SectionInertia(
         inertia.mass_per_length + cable.clamp_mass_per_length.value, inertia.J_x, inertia.J_y, inertia.J_z
     )
     damping = DampingTimes(cable.damping_time_axial.value, cable.damping_time_bending.value)
-    rod = Rod.straight(cable.length.value, scenario.elements, section, with_clamps, damping)
+    rod = ELEMENTS[scenario.element].straight(cable.length.value, scenario.elements, section, with_clamps, damping)
     R, lower = layout.bend_radius.value, scenario.lower_strand
     pieces = [(lower, 0.0), (scenario.bend_length, -1.0 / R), (layout.upper_strand.value, 0.0)]
     trough = ContactLaw(contact.stiffness.value, contact.friction.value, contact.damping_time.value)
@@ -66,6 +71,7 @@ def towing_model(scenario: Scenario, section: SectionStiffness, inertia: Section
             Plane("deck", trough, offset=2 * R, low=deck_begin, box_travel=scenario.trolley),
             Cylinder("roller", roller, (scenario.roller_start, R, 0.0), R, scenario.trolley),
         ],
+        law=law,
     )
 
 
@@ -123,8 +129,7 @@ def tow(
     section = section or published_section(scenario)
     inertia = inertia or scenario.cable_inertia
     tell = progress or (lambda fraction, sentence: None)
-    model = towing_model(scenario, section, inertia)
-    model.law = law
+    model = towing_model(scenario, section, inertia, law)
     settings, per_frame, frames = _steps(scenario, settings)
     path = None if file is None else Path(file)
     attributes = run_attributes(scenario, section, model.rod.mass_per_length)

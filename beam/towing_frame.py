@@ -11,15 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.end_reaction import global_moment
 from beam.energy_ledger import energy_names
 from beam.generalized_alpha import Integrator
 from beam.incline_formula import towing_force_down, towing_force_up
 from beam.rod import GAUSS_X
 from beam.rod_model import RodModel
 from beam.scenario import Scenario
-from beam.section_force import nodal_section_forces
-from beam.section_memory import strains
 
 if TYPE_CHECKING:
     import xarray
@@ -86,26 +83,26 @@ STRAINS = ("Gamma_1", "Gamma_2", "Gamma_3", "kappa_1", "kappa_2", "kappa_3")
 def frame(scenario: Scenario, motion: Integrator) -> dict[str, Any]:
     """Values of ``time`` and all :data:`VARIABLES` at the present state of `motion`."""
     q, forces, model = motion.q, motion.forces, motion.model
-    lengths = model.rod.lengths
-    local, turned = nodal_section_forces(q, lengths, forces.S)
-    E = strains(q, lengths, GAUSS_X, np.zeros_like(model.rod.E0))
-    radius, where = _bend_radius(E, gauss_arc_length(model))
+    rod = model.rod
+    theta, local, turned = rod.sections(q, forces.S)
+    E = rod.strains(q)
+    radius, where = _bend_radius(E + rod.E0, gauss_arc_length(model))
     up, down = formula_forces(scenario, model.rod.mass_per_length, np.array([motion.t]))
     reaction = motion.reaction
-    first, last = (global_moment(q[k, 6:9], reaction[k, 6:9]) for k in (0, -1))
+    first, last = (rod.moment(q[k], reaction[k]) for k in (0, -1))
     return {
         "time": motion.t,
         "position": q[:, 0:3],
         "tangent": q[:, 3:6],
-        "rotation_vector": q[:, 6:9],
+        "rotation_vector": theta,
         "force_local": local[:, :3],
         "moment_local": local[:, 3:],
         "force_global": turned[:, :3],
         "moment_global": turned[:, 3:],
         "contact_force": forces.contact,
         "friction_force": forces.friction,
-        "gauss_strain": E - model.rod.E0,
-        "gauss_force": forces.S,
+        "gauss_strain": E,
+        "gauss_force": rod.in_section_axes(q, forces.S),
         "friction_use": np.stack([cone.max(axis=1) for cone in forces.cones], axis=1),
         "pull_force": reaction[-1, 0:3],
         "pull_moment": last,

@@ -42,6 +42,7 @@ def towing_record(run: TowingRun) -> dict[str, Any]:
         "seconds_simulated": float(time[-1]),
         "seconds_wall": run.seconds_wall,
         "elements": run.scenario.elements,
+        "element": run.scenario.element,
         "constants": run.scenario.constants,
         "peak_tension": float(data["force_local"].values[:, :, 0].max()),
         "bend_radius_min": float(data["bend_radius"].values.min()),

@@ -72,6 +72,7 @@ def run_attributes(scenario: Scenario, section: SectionStiffness, mass_per_lengt
         "constants": scenario.constants,
         "status": fixed_length("not finished: it is running, or was ended from outside"),
         "elements": scenario.elements,
+        "element": scenario.element,
         "diameter_m": scenario.cable.diameter.value,
         "mass_per_length_kg_per_m": mass_per_length,
         "section_stiffness_order": "gamma_x, gamma_y, epsilon, kappa_x, kappa_y, tau",
