@@ -19,7 +19,7 @@ import numpy as np
 
 from beam.scenario import Scenario, published_section
 from beam.sweep_axis import CONSTANTS, Axis
-from beam.sweep_record import SweepFolder
+from beam.sweep_record import SweepFolder, choices
 from beam.worker_pool import finished
 from geometry.errors import ConvergenceError, InputError, SpecError
 from homogenize.section_stiffness import SectionStiffness
@@ -70,7 +70,7 @@ def _digest(scenario: Scenario, changes: dict[str, str], section: SectionStiffne
     """Name of a run by everything that it depends on."""
     kept = {k: e.value for k, e in scenario.entries().items() if not k.startswith("published_results.")}
     stiffness = None if section is None else [*np.ravel(section.C).tolist(), section.area]
-    whole = {"entries": kept, "changes": changes, "constants": scenario.constants, "section": stiffness}
+    whole = {"entries": kept, "changes": changes, "choices": choices(scenario), "section": stiffness}
     return hashlib.sha256(json.dumps(whole, sort_keys=True).encode()).hexdigest()[:16]
 
 

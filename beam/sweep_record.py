@@ -191,13 +191,25 @@ def _about(
 ) -> dict[str, Any]:
     return {
         "schema": 1,
-        "scenario": scenario.name,
-        "constants": scenario.constants,
+        "choices": choices(scenario),
         "entries": {key: entry.value for key, entry in scenario.entries().items()},
         "axes": {axis.key: list(axis.texts) for axis in axes},
         "sections": {name: {"C": np.asarray(s.C).tolist(), "area": s.area} for name, s in sections.items()},
         "notes": dict(notes),
     }
+
+
+def choices(scenario: Scenario) -> dict[str, str]:
+    """What a scenario says in words, such as its constants; not its title.
+
+    Examples
+    --------
+    >>> from beam import read_scenario
+    >>> choices(read_scenario("intelligent-horizontal"))["constants"]
+    'published'
+    """
+    said = {name: getattr(scenario, name) for name in type(scenario).model_fields if name != "title"}
+    return {name: value for name, value in said.items() if isinstance(value, str)}
 
 
 def _difference(there: Mapping[str, Any], here: Mapping[str, Any]) -> str:

@@ -59,10 +59,8 @@ def _attributes(file: Path) -> dict[str, Any]:
     try:
         with xr.open_dataset(file, engine="scipy") as data:
             found = dict(data.attrs)
-        return {
-            name: found[name]
-            for name in ("status", "entries", "section_stiffness", "static_residual_N", "static_residual_N_m")
-        }
+        needed = ("status", "entries", "section_stiffness", "static_residual_N", "static_residual_N_m")
+        return found | {name: found[name] for name in needed}
     except (OSError, TypeError, ValueError, KeyError):
         raise InputError(
             f"{file} is not the file of a run that was being written; start it without resuming."
@@ -78,5 +76,7 @@ def _require_same(file: Path, found: dict[str, Any], wanted: dict[str, Any]) -> 
             f"{file} is a run with {key} = {there.get(key, 'missing')}, not {here[key]}: "
             f"resume it with its own scenario, or write to another place."
         )
+    if found.get("element") != wanted.get("element"):
+        raise InputError(f"{file} is a run with the element {found.get('element')}, not {wanted.get('element')}: resume it with its own.")
     if not np.array_equal(np.ravel(found["section_stiffness"]), np.ravel(wanted["section_stiffness"])):
         raise InputError(f"{file} is a run with another section stiffness: resume it with its own constants.")

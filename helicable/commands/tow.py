@@ -35,6 +35,9 @@ def tow(
     out: Annotated[
         Path | None, typer.Option("--out", metavar="DIR", help="Write run.nc, curves and pictures here.")
     ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with the run in DIR/run.nc that was ended from outside.")
+    ] = False,
 ) -> None:
     """Run a towing scenario: static start, contact, friction, forces along the cable.
 
@@ -49,7 +52,10 @@ def tow(
         return
     if scenario is None:
         raise SpecError("no scenario was named: try helicable tow intelligent-horizontal, or helicable tow --list.")
-    run, used = towing_run(scenario, constants, cable, element=element)
+    if resume and out is None:
+        raise SpecError("--resume needs --out DIR, the folder in which the run was being written.")
+    file = None if out is None else folder(out) / "run.nc"
+    run, used = towing_run(scenario, constants, cable, element=element, file=file, resume=resume)
     show_run(run, used)
     record = towing_json(run, used)
     if out is not None:
@@ -68,8 +74,13 @@ def towing_run(
     cable: str,
     cell: SectionStiffness | None = None,
     element: str | None = None,
+    file: Path | None = None,
+    resume: bool = False,
 ) -> tuple[TowingRun, BeamConstants]:
-    """Read a scenario, resolve its constants (`cell`, if given, is the section of the cable), and run it with progress."""
+    """Read a scenario, resolve its constants (`cell`, if given, is the section of the cable), and run it with progress.
+
+    With a `file` the run is written there while it goes; with `resume` it goes on from what is there.
+    """
     read = read_scenario(scenario)
     if constants is not None:
         read = read.model_copy(update={"constants": constants})
@@ -77,7 +88,7 @@ def towing_run(
         read = read.model_copy(update={"element": element})
     used = beam_constants(read, cable, cell)
     with progress("towing") as tell:
-        run = run_towing(read, used.section, progress=tell)
+        run = run_towing(read, used.section, progress=tell, file=file, resume=resume)
     return run, used
 
 

@@ -164,7 +164,7 @@ def test_a_folder_of_another_sweep_is_refused(scenario, done, tmp_path):
         InputError, match=r"another sweep \(layout.inclination: there 0 deg, 20 deg, here 0 deg, 30 deg\)"
     ):
         sweep(scenario, read_axes(["inclination=0,30 deg", OVER[1]], scenario), done.path)
-    with pytest.raises(InputError, match="another sweep .drive.speed"):
+    with pytest.raises(InputError, match=r"another sweep .drive.speed"):
         sweep(scenario.changed(drive__speed="5 m/min"), done.axes, done.path)
     (tmp_path / "thesis.txt").write_text("")
     with pytest.raises(InputError, match="holds other files"):
