@@ -77,6 +77,8 @@ def _require_same(file: Path, found: dict[str, Any], wanted: dict[str, Any]) -> 
             f"resume it with its own scenario, or write to another place."
         )
     if found.get("element") != wanted.get("element"):
-        raise InputError(f"{file} is a run with the element {found.get('element')}, not {wanted.get('element')}: resume it with its own.")
+        raise InputError(
+            f"{file} is a run with the element {found.get('element')}, not {wanted.get('element')}: resume it with its own."
+        )
     if not np.array_equal(np.ravel(found["section_stiffness"]), np.ravel(wanted["section_stiffness"])):
         raise InputError(f"{file} is a run with another section stiffness: resume it with its own constants.")
