@@ -15,12 +15,12 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.compiled import kernel
+from beam.compiled import inlined, kernel
 
 Array = NDArray[np.float64]
 
 
-@kernel
+@inlined
 def factor_block(A: Array, pivot: NDArray[np.int64]) -> bool:
     """LU of the square `A` in place with row pivoting; False if it is singular or not finite."""
     n = A.shape[0]
@@ -98,7 +98,7 @@ def solve_row(A: Array, pivot: NDArray[np.int64], B: Array, row: int) -> None:
         B[row, i] = total / A[i, i]
 
 
-@kernel
+@inlined
 def factor_chain(D: Array, U: Array, L: Array, pivots: NDArray[np.int64]) -> int:
     """Factorise in place: `D` (n, b, b), `U` and `L` (n - 1, b, b), `pivots` (n, b). Returns -1, or the singular block."""
     n, b, _ = D.shape
@@ -208,7 +208,6 @@ def sweep_of(b: int) -> Callable[[Array, Array, Array, Array], None]:  # noqa: C
 sweep_12, sweep_6 = sweep_of(12), sweep_of(6)
 
 
-@kernel
 def sweep_chain(D: Array, U: Array, L: Array, B: Array) -> None:
     """Replace `B` (n, b) by the solution; blocks of b = 12 or 6 rows from :func:`invert_chain`."""
     if D.shape[1] == 6:

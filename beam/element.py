@@ -23,7 +23,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.compiled import kernel
+from beam.compiled import inlined, kernel
 from beam.hermite import hermite, hermite_mass
 from beam.point_force import interpolate, point_force, rotary_force
 from beam.rotation_vector import accelerate_on_branch, force_on_branch, move_on_branch, rotation_coefficients
@@ -134,7 +134,7 @@ def add_inertia(a: Array, k: int, length: float, m: float, J: Array, mass: Array
         F[k + 1, 9 + i] += length * f
 
 
-@kernel
+@inlined
 def element_force(
     q: Array, v: Array, a: Array, k: int, moving: bool, damped: bool, e: int, length: float, H: Array, w: Array,
     C: Array, C_damping: Array, E0: Array, m: float, J: Array, mass: Array, F: Array, S: Array,
@@ -151,37 +151,9 @@ def element_force(
             s0, s1, s2, w0, w1, w2, v0, v1, v2 = interpolate(v, k, H, g, length)
         ca, cb, cc, db, dc = rotation_coefficients(t0 * t0 + t1 * t1 + t2 * t2)
         stored, lost, f0, f1, f2, f3, f4, f5, f6, f7, f8 = point_force(
-            t0,
-            t1,
-            t2,
-            u0,
-            u1,
-            u2,
-            d0,
-            d1,
-            d2,
-            s0,
-            s1,
-            s2,
-            w0,
-            w1,
-            w2,
-            v0,
-            v1,
-            v2,
-            ca,
-            cb,
-            cc,
-            db,
-            dc,
-            C,
-            C_damping,
-            E0,
-            e,
-            g,
-            damped,
-            S,
-        )
+            t0, t1, t2, u0, u1, u2, d0, d1, d2, s0, s1, s2, w0, w1, w2, v0, v1, v2,
+            ca, cb, cc, db, dc, C, C_damping, E0, e, g, damped, S,
+        )  # fmt: skip
         if moving:
             turning, i0, i1, i2 = rotary_force(t0, t1, t2, s0, s1, s2, cb, cc, db, dc, a, k, H, g, length, J)
             f0, f1, f2 = f0 + i0, f1 + i1, f2 + i2
@@ -210,30 +182,25 @@ def element_force(
 
 
 @kernel
-def force_on_two_branches(
-    q: Array, v: Array, a: Array, moving: bool, damped: bool, e: int, length: float, H: Array, w: Array,
-    C: Array, C_damping: Array, E0: Array, m: float, J: Array, mass: Array, F: Array, S: Array, room: Array,
-) -> tuple[float, float, float]:  # fmt: skip
-    """:func:`element_force` of an element whose ends lie on two branches; `room` (4, 2, 12) is work space."""
-    Q, V, A, P = room[0], room[1], room[2], room[3]
-    copy_ends(q, e, Q)
-    copy_ends(v, e, V)
+def move_element(q: Array, v: Array, a: Array, e: int, moving: bool, room: Array) -> None:
+    """Copy the nodes of element `e`, both on the branch of the first, into `room` (4, 2, 12); the last part is emptied."""
+    copy_ends(q, e, room[0])
+    copy_ends(v, e, room[1])
+    copy_ends(a, e, room[2])
+    theta, slope, rate, slope_rate = room[0, 1, 6:9], room[0, 1, 9:12], room[1, 1, 6:9], room[1, 1, 9:12]
     if moving:
-        copy_ends(a, e, A)
-    theta, slope, rate, slope_rate = Q[1, 6:9], Q[1, 9:12], V[1, 6:9], V[1, 9:12]
-    accelerate_on_branch(theta, slope, rate, slope_rate, A[1, 6:9], A[1, 9:12])
+        accelerate_on_branch(theta, slope, rate, slope_rate, room[2, 1, 6:9], room[2, 1, 9:12])
     move_on_branch(theta, slope, rate, slope_rate)
-    for i in range(2):
-        for k in range(12):
-            P[i, k] = 0.0
-    energy, power, kinetic = element_force(
-        Q, V, A, 0, moving, damped, e, length, H, w, C, C_damping, E0, m, J, mass, P, S
-    )  # fmt: skip
+    room[3] = 0.0
+
+
+@kernel
+def return_force(q: Array, e: int, P: Array, F: Array) -> None:
+    """Add the forces `P` (2, 12) of an element whose second node was moved to the other branch to `F`."""
     force_on_branch(q[e + 1, 6:9], q[e + 1, 9:12], P[1, 6:9], P[1, 9:12])
     for i in range(2):
         for k in range(12):
             F[e + i, k] += P[i, k]
-    return energy, power, kinetic
 
 
 @kernel
@@ -250,32 +217,31 @@ def internal_force(
     room = np.zeros((4, 2, 12))
     energy, power, kinetic = 0.0, 0.0, 0.0
     for e in range(lengths.size):
-        if on_two_branches(q, e):
-            stored, lost, turning = force_on_two_branches(
-                q, v, a, moving, damped, e, lengths[e], H, w, C, C_damping, E0, m, J, mass, F, S, room
-            )
-        else:
-            stored, lost, turning = element_force(
-                q, v, a, e, moving, damped, e, lengths[e], H, w, C, C_damping, E0, m, J, mass, F, S
-            )
+        moved = on_two_branches(q, e)
+        Q, V, A, P, k = q, v, a, F, e
+        if moved:
+            move_element(q, v, a, e, moving, room)
+            Q, V, A, P, k = room[0], room[1], room[2], room[3], 0
+        stored, lost, turning = element_force(
+            Q, V, A, k, moving, damped, e, lengths[e], H, w, C, C_damping, E0, m, J, mass, P, S
+        )
         energy += stored
         power += lost
         kinetic += turning
+        if moved:
+            return_force(q, e, P, F)
     return energy, power, kinetic
 
 
-@kernel
 def kinetic_energy(v: Array, lengths: Array, m: float, J: Array, mass: Array) -> float:
     """Kinetic energy of the constant part of the inertia, see :func:`add_inertia` [J]."""
-    ends, P = np.empty((2, 12)), np.empty((2, 12))
-    total = 0.0
+    P = np.zeros_like(v)
+    constant_inertia(v, lengths, m, J, mass, P)
+    return 0.5 * float(np.vdot(v, P))
+
+
+@kernel
+def constant_inertia(a: Array, lengths: Array, m: float, J: Array, mass: Array, F: Array) -> None:
+    """:func:`add_inertia` of all elements."""
     for e in range(lengths.size):
-        copy_ends(v, e, ends)
-        for i in range(2):
-            for k in range(12):
-                P[i, k] = 0.0
-        add_inertia(ends, 0, lengths[e], m, J, mass, P)
-        for i in range(2):
-            for k in range(12):
-                total += 0.5 * ends[i, k] * P[i, k]
-    return total
+        add_inertia(a, e, lengths[e], m, J, mass, F)

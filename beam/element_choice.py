@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from beam import element, element_tangent
 from beam.ancf_cable_element import CABLE_DOF, add_line_mass, cable_force, cable_tangent, line_kinetic_energy
-from beam.compiled import kernel
 
 Array = NDArray[np.float64]
 
@@ -18,7 +17,6 @@ _rod_force, _rod_kinetic_energy = element.internal_force, element.kinetic_energy
 _rod_tangent, _rod_mass = element_tangent.internal_tangent, element_tangent.add_mass
 
 
-@kernel
 def internal_force(
     q: Array, v: Array, a: Array, moving: bool, damped: bool, lengths: Array, H: Array, w: Array, C: Array,
     C_damping: Array, E0: Array, m: float, J: Array, mass: Array, F: Array, S: Array,
@@ -30,7 +28,6 @@ def internal_force(
     return _rod_force(q, v, a, moving, damped, lengths, H, w, C, C_damping, E0, m, J, mass, F, S)
 
 
-@kernel
 def internal_tangent(
     q: Array, v: Array, a: Array, moving: bool, factor: float, factor_a: float, lengths: Array, x: Array, H: Array,
     w: Array, C: Array, C_damping: Array, E0: Array, m: float, J: Array, mass: Array, D: Array, U: Array, L: Array,
@@ -42,7 +39,6 @@ def internal_tangent(
         _rod_tangent(q, v, a, moving, factor, factor_a, lengths, x, H, w, C, C_damping, E0, m, J, mass, D, U, L)
 
 
-@kernel
 def add_mass(
     factor: float, lengths: Array, w: Array, H: Array, m: float, J: Array, mass: Array, D: Array, U: Array, L: Array
 ) -> None:
@@ -53,7 +49,6 @@ def add_mass(
         _rod_mass(factor, lengths, w, H, m, J, mass, D, U, L)
 
 
-@kernel
 def kinetic_energy(v: Array, lengths: Array, m: float, J: Array, mass: Array) -> float:
     """Kinetic energy of the constant part of the inertia of either element [J]."""
     if v.shape[1] == CABLE_DOF:

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.compiled import kernel
-from beam.element import DEGREE_SIX, force_on_two_branches, gather, on_two_branches
+from beam.compiled import inlined, kernel
+from beam.element import DEGREE_SIX, gather, internal_force, on_two_branches
 from beam.hermite import hermite
 from beam.strain import gauss_force, rotary_inertia
 
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 STEP = 1e-7
 
 
-@kernel
+@inlined
 def point_tangent(  # noqa: C901 - loops over components
     z: Array, zdot: Array, acc: Array, moving: bool, factor: float, factor_a: float, C: Array, C_damping: Array,
     E0: Array, J: Array, room: Array, G: Array,
@@ -51,19 +51,29 @@ def point_tangent(  # noqa: C901 - loops over components
                 G[i, j] += (turning[i] - still[i]) / STEP
 
 
-@kernel
 def internal_tangent(
     q: Array, v: Array, a: Array, moving: bool, factor: float, factor_a: float, lengths: Array, x: Array, H: Array,
     w: Array, C: Array, C_damping: Array, E0: Array, m: float, J: Array, mass: Array, D: Array, U: Array, L: Array,
 ) -> None:  # fmt: skip
     """Add dF/dq + factor dF/dv + factor_a dF/da to the blocks: `D` (n + 1) on, `U` (n) above and `L` (n) below the diagonal."""
-    N, dN, Nz = np.empty(4), np.empty(4), np.empty(12)
+    given = (w, C, C_damping, E0, m, J, mass, D, U, L)
+    rest = tangent_on_one_branch(q, v, a, moving, factor, factor_a, lengths, x, H, *given)
+    if rest:
+        for e in np.nonzero([on_two_branches(q, e) for e in range(lengths.size)])[0]:
+            difference_element(q, v, a, moving, factor, factor_a, int(e), lengths, H, *given)
+
+
+@kernel
+def tangent_on_one_branch(
+    q: Array, v: Array, a: Array, moving: bool, factor: float, factor_a: float, lengths: Array, x: Array, H: Array,
+    w: Array, C: Array, C_damping: Array, E0: Array, m: float, J: Array, mass: Array, D: Array, U: Array, L: Array,
+) -> int:  # fmt: skip
+    """:func:`internal_tangent` of the elements whose ends lie on one branch; returns how many are left."""
+    N, dN, Nz, rest = np.empty(4), np.empty(4), np.empty(12), 0
     z, zdot, acc, G, room = np.empty(9), np.empty(9), np.zeros(3), np.empty((9, 9)), np.empty((7, 9))
     for e in range(lengths.size):
         if on_two_branches(q, e):
-            difference_element(
-                q, v, a, moving, factor, factor_a, e, lengths[e], H, w, C, C_damping, E0, m, J, mass, D, U, L
-            )
+            rest += 1
             continue
         for g in range(x.size):
             hermite(x[g], lengths[e], N, dN)
@@ -77,35 +87,29 @@ def internal_tangent(
             scatter_tangent(G, e, w[g] * lengths[e], N, dN, D, U, L)
         if moving:
             add_constant_mass(factor_a, e, lengths[e], m, J, mass, D, U, L)
+    return rest
 
 
-@kernel
 def difference_element(
-    q: Array, v: Array, a: Array, moving: bool, factor: float, factor_a: float, e: int, length: float, H: Array,
+    q: Array, v: Array, a: Array, moving: bool, factor: float, factor_a: float, e: int, lengths: Array, H: Array,
     w: Array, C: Array, C_damping: Array, E0: Array, m: float, J: Array, mass: Array, D: Array, U: Array, L: Array,
 ) -> None:  # fmt: skip
     """Tangent of one element by differences along its 24 unknowns."""
     Q, V, A = q[e : e + 2].copy(), v[e : e + 2].copy(), a[e : e + 2].copy()
-    here, ahead, room = np.zeros((2, 12)), np.zeros((2, 12)), np.zeros((4, 2, 12))
-    S, rest = np.zeros((1, w.size, 6)), E0[e : e + 1]
-    for column in range(-1, 24):
-        b, j = max(column, 0) // 12, max(column, 0) % 12
-        step = STEP if column >= 0 else 0.0
-        Q[b, j], V[b, j], A[b, j] = q[e + b, j] + step, v[e + b, j] + factor * step, a[e + b, j] + factor_a * step
-        ahead[:] = 0.0
-        force_on_two_branches(Q, V, A, moving, True, 0, length, H, w, C, C_damping, rest, m, J, mass, ahead, S, room)
-        Q[b, j], V[b, j], A[b, j] = q[e + b, j], v[e + b, j], a[e + b, j]
-        if column < 0:
-            here[:] = ahead
-            continue
-        for i in range(12):
-            first, second = (ahead[0, i] - here[0, i]) / STEP, (ahead[1, i] - here[1, i]) / STEP
-            if b == 0:
-                D[e, i, j] += first
-                L[e, i, j] += second
-            else:
-                U[e, i, j] += first
-                D[e + 1, i, j] += second
+    rest = E0[e : e + 1]
+    given = (moving, True, lengths[e : e + 1], H, w, C, C_damping, rest, m, J, mass)
+    here, S = np.zeros((2, 12)), np.zeros_like(rest)
+    internal_force(Q, V, A, *given, here, S)
+    for column in range(24):
+        b, j = divmod(column, 12)
+        kept = Q[b, j], V[b, j], A[b, j]
+        Q[b, j], V[b, j], A[b, j] = kept[0] + STEP, kept[1] + factor * STEP, kept[2] + factor_a * STEP
+        ahead = np.zeros((2, 12))
+        internal_force(Q, V, A, *given, ahead, S)
+        Q[b, j], V[b, j], A[b, j] = kept
+        first, second = (ahead - here) / STEP
+        (D if b == 0 else U)[e, :, j] += first
+        (L[e] if b == 0 else D[e + 1])[:, j] += second
 
 
 @kernel

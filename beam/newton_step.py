@@ -1,4 +1,4 @@
-r"""One time step by modified Newton iteration, compiled as a whole.
+r"""One time step by modified Newton iteration, around compiled kernels.
 
 The equations of motion hold at the end of the step, M(q) w + F(q, v, t) = 0 with the true acceleration w; the algorithmic
 acceleration a follows from (1 - alpha_m) a_{n+1} + alpha_m a_n = (1 - alpha_f) w_{n+1} + alpha_f w_n. For a constant mass
@@ -89,35 +89,28 @@ class Rule(NamedTuple):
     iterations: int
 
 
-@kernel
 def predict(old: StateArrays, new: StateArrays, rule: Rule) -> None:
     """Start of the iteration: the algorithmic acceleration goes on as it was."""
     h = rule.h
-    for i in range(old.q.shape[0]):
-        for k in range(old.q.shape[1]):
-            a = old.a[i, k]
-            new.q[i, k] = old.q[i, k] + h * old.v[i, k] + 0.5 * h * h * a
-            new.v[i, k] = old.v[i, k] + h * a
-            new.a[i, k] = a
-            new.w[i, k] = (a - rule.af * old.w[i, k]) / (1.0 - rule.af)
+    np.copyto(new.a, old.a)
+    np.add(old.v, h * old.a, out=new.v)
+    np.add(old.q, (0.5 * h) * (old.v + new.v), out=new.q)
+    np.subtract(old.a, rule.af * old.w, out=new.w)
+    np.divide(new.w, 1.0 - rule.af, out=new.w)
 
 
-@kernel
 def hold(new: StateArrays, held: NDArray[np.int64], values: Array) -> None:
     """Write prescribed positions, velocities, accelerations `values` (k, 3) into the unknowns `held` (k, 2)."""
-    for j in range(held.shape[0]):
-        i, k = held[j, 0], held[j, 1]
-        new.q[i, k], new.v[i, k], new.a[i, k], new.w[i, k] = values[j, 0], values[j, 1], values[j, 2], values[j, 2]
+    i, k = held.T
+    new.q[i, k], new.v[i, k], new.a[i, k] = values.T
+    new.w[i, k] = values[:, 2]
 
 
-@kernel
 def evaluate(
     rod: RodArrays, contact: ContactArrays, external: Array, state: StateArrays, F: Array, S: Array, totals: Array
 ) -> None:
     """Write M w + F - external into `F` and the section forces into `S`; energies and powers into `totals`, `reports`."""
-    for i in range(F.shape[0]):
-        for k in range(F.shape[1]):
-            F[i, k] = -external[i, k]
+    np.negative(external, out=F)
     totals[0], totals[1], totals[2] = internal_force(
         state.q, state.v, state.w, True, rod.damped, rod.lengths, rod.H, rod.w, rod.C, rod.C_damping, rod.E0,
         rod.m, rod.J, rod.mass, F, S,
@@ -130,7 +123,6 @@ def evaluate(
     )  # fmt: skip
 
 
-@kernel
 def renew(
     rod: RodArrays, contact: ContactArrays, held: NDArray[np.int64], state: StateArrays, matrix: MatrixArrays,
     rule: Rule, F: Array,
@@ -154,21 +146,17 @@ def renew(
     return invert_chain(D, U, L, matrix.pivots)
 
 
-@kernel
 def fix_blocks(held: NDArray[np.int64], D: Array, U: Array, L: Array) -> None:
     """Replace rows and columns of the unknowns `held` (k, 2) by the identity."""
-    for j in range(held.shape[0]):
-        i, slot = held[j, 0], held[j, 1]
-        for k in range(D.shape[1]):
-            D[i, slot, k] = 0.0
-            D[i, k, slot] = 0.0
-            if i > 0:
-                L[i - 1, slot, k] = 0.0
-                U[i - 1, k, slot] = 0.0
-            if i < U.shape[0]:
-                U[i, slot, k] = 0.0
-                L[i, k, slot] = 0.0
-        D[i, slot, slot] = 1.0
+    i, k = held.T
+    D[i, k, :] = 0.0
+    D[i, :, k] = 0.0
+    D[i, k, k] = 1.0
+    before, after = i > 0, i < len(U)
+    L[i[before] - 1, k[before], :] = 0.0
+    U[i[before] - 1, :, k[before]] = 0.0
+    U[i[after], k[after], :] = 0.0
+    L[i[after], :, k[after]] = 0.0
 
 
 @kernel
@@ -188,37 +176,37 @@ def residual_size(F: Array, held: NDArray[np.int64], R: Array) -> float:
     return np.sqrt(total)
 
 
-@kernel
 def correct(state: StateArrays, delta: Array, rule: Rule) -> None:
     """Subtract Newton's step from positions, and what belongs to it from velocities and accelerations."""
     h, beta = rule.h, rule.beta
-    speed, algorithmic = rule.gamma / (beta * h), 1.0 / (beta * h * h)
-    true = (1.0 - rule.am) / (1.0 - rule.af) * algorithmic
-    for i in range(delta.shape[0]):
-        for k in range(delta.shape[1]):
-            d = delta[i, k]
-            state.q[i, k] -= d
-            state.v[i, k] -= speed * d
-            state.a[i, k] -= algorithmic * d
-            state.w[i, k] -= true * d
+    algorithmic = 1.0 / (beta * h * h)
+    move(*state, delta, rule.gamma / (beta * h), algorithmic, (1.0 - rule.am) / (1.0 - rule.af) * algorithmic)
 
 
 @kernel
+def move(
+    q: Array, v: Array, a: Array, w: Array, delta: Array, speed: float, algorithmic: float, true: float
+) -> None:
+    """Subtract `delta` from `q`, and the given multiples of it from `v`, `a` and `w`."""
+    for i in range(delta.shape[0]):
+        for k in range(delta.shape[1]):
+            d = delta[i, k]
+            q[i, k] -= d
+            v[i, k] -= speed * d
+            a[i, k] -= algorithmic * d
+            w[i, k] -= true * d
+
+
 def account(
     rod: RodArrays, external: Array, held: NDArray[np.int64], new: StateArrays, F: Array, totals: Array
 ) -> None:
     """Complete `totals` for an accepted state."""
     totals[2] += kinetic_energy(new.v, rod.lengths, rod.m, rod.J, rod.mass)
-    power, potential = 0.0, 0.0
-    for j in range(held.shape[0]):
-        power += F[held[j, 0], held[j, 1]] * new.v[held[j, 0], held[j, 1]]
-    for i in range(external.shape[0]):
-        for k in range(external.shape[1]):
-            potential -= external[i, k] * new.q[i, k]
-    totals[3], totals[4] = power, potential
+    i, k = held.T
+    totals[3] = F[i, k] @ new.v[i, k]
+    totals[4] = -np.vdot(external, new.q)
 
 
-@kernel
 def newton_step(
     rod: RodArrays, contact: ContactArrays, external: Array, held: NDArray[np.int64], values: Array, old: StateArrays,
     new: StateArrays, matrix: MatrixArrays, known: bool, rule: Rule, F: Array, S: Array, R: Array, totals: Array,

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.compiled import kernel
+from beam.compiled import inlined, kernel
 from beam.strain import cross
 
 Array = NDArray[np.float64]
@@ -48,7 +48,7 @@ def times(C: Array, e0: float, e1: float, e2: float, e3: float, e4: float, e5: f
     return s0, s1, s2, s3, s4, s5
 
 
-@kernel
+@inlined
 def point_force(
     t0: float, t1: float, t2: float, u0: float, u1: float, u2: float, d0: float, d1: float, d2: float,
     s0: float, s1: float, s2: float, w0: float, w1: float, w2: float, v0: float, v1: float, v2: float,
@@ -114,7 +114,7 @@ def point_force(
     return stored, lost, f0, f1, f2, f3, f4, f5, f6, f7, f8
 
 
-@kernel
+@inlined
 def rotary_force(
     t0: float, t1: float, t2: float, s0: float, s1: float, s2: float, b: float, c: float, db: float, dc: float,
     a: Array, k: int, H: Array, g: int, length: float, J: Array,

@@ -20,7 +20,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.compiled import kernel
+from beam.compiled import inlined, kernel
 from beam.rotation_vector import rotation_coefficients
 
 Array = NDArray[np.float64]
@@ -52,7 +52,7 @@ def strain(z: Array, a: float, b: float, c: float, E: Array) -> tuple[float, flo
     return p0, p1, p2, q0, q1, q2
 
 
-@kernel
+@inlined
 def strain_rate(
     z: Array, zdot: Array, a: float, b: float, c: float, db: float, dc: float, E: Array,
     p0: float, p1: float, p2: float, q0: float, q1: float, q2: float, rate: Array,
@@ -106,7 +106,7 @@ def force_of_section(
     f[2] = h2 + b * x2 + c * y2 - b * m2 + c * (M2 * tu + u2 * tM) + along * t2
 
 
-@kernel
+@inlined
 def linear_law(C: Array, C_damping: Array, E0: Array, E: Array, rate: Array, S: Array) -> tuple[float, float]:
     """Section forces `S` of the linear law with damping; returns stored energy and dissipated power per length."""
     d0, d1, d2, d3, d4, d5 = E[0] - E0[0], E[1] - E0[1], E[2] - E0[2], E[3] - E0[3], E[4] - E0[4], E[5] - E0[5]
@@ -123,7 +123,7 @@ def linear_law(C: Array, C_damping: Array, E0: Array, E: Array, rate: Array, S: 
     return stored, dissipated
 
 
-@kernel
+@inlined
 def gauss_force(
     z: Array, zdot: Array, C: Array, C_damping: Array, E0: Array, E: Array, rate: Array, S: Array, f: Array
 ) -> tuple[float, float]:
@@ -136,7 +136,7 @@ def gauss_force(
     return energies
 
 
-@kernel
+@inlined
 def rotary_inertia(z: Array, zdot: Array, acceleration: Array, J: Array, f: Array) -> None:
     """Add T^T (J omega_dot + omega x J omega), the inertia of the section per length, to `f` (9,).
 
