@@ -95,6 +95,17 @@ def test_energy_is_closed(run):
     assert abs(run.balance_error) < 1e-5
 
 
+def test_energy_is_closed_to_a_millionth_of_the_work_done(run):
+    """At every instant, with the iteration taken to round-off and half the step; the rest falls with the step's square."""
+    from beam.generalized_alpha import StepSettings
+
+    settings = StepSettings(2.5e-3, relative=1e-9, absolute=1e-5, iterations=30)
+    fine = tow(run.scenario, settings=settings).dataset
+    work = float(fine["energy"].sel(source="drive_work")[-1])
+    assert work > 10
+    assert np.abs(fine["energy_error"].values).max() < 1e-6 * work
+
+
 def test_record_has_the_agreed_keys(run):
     """Keys fixed for machines; finite numbers, null only with a reason."""
     record = json.loads(json.dumps(run.record(), allow_nan=False))
