@@ -1,7 +1,8 @@
-"""Every benchmark of the rod: at rest, in motion, with friction, towed."""
+"""Every benchmark of the rod: at rest, in motion, with friction, towed; and of the ANCF cable."""
 
 from __future__ import annotations
 
+from beam.benchmark_ancf_cable import ancf_cable_cases
 from beam.benchmark_dynamics import dynamic_cases
 from beam.benchmark_friction import friction_cases
 from beam.benchmark_statics import static_cases
@@ -11,4 +12,4 @@ from homogenize.benchmark import Case
 
 def rod_cases() -> tuple[Case, ...]:
     """The cases; run them with :func:`homogenize.benchmark.run_cases`."""
-    return (*static_cases(), *dynamic_cases(), *friction_cases(), *towing_cases())
+    return (*static_cases(), *dynamic_cases(), *friction_cases(), *towing_cases(), *ancf_cable_cases())
