@@ -133,7 +133,9 @@ class RodModel:
                 self.free[support.node, self.rod.slots(name, self.q0[support.node])] = False
         self.weight = self.rod.weight(np.asarray(self.gravity, dtype=float))
         if self.rod.dof != DOF and any(support.turn is not None for support in self.supports):
-            raise SpecError("a section of an ANCF cable cannot be turned by a support, it has no rotations: take the rod.")
+            raise SpecError(
+                "a section of an ANCF cable cannot be turned by a support, it has no rotations: take the rod."
+            )
         self._external = self.weight if self.load is None else self.weight + self.load
         self.held = np.argwhere(~self.free)
         rod = self.rod

@@ -74,6 +74,20 @@ def test_a_stretched_cable_passes_the_patch_test():
     assert np.abs(result.forces.S[:, :, 1:]).max() < 1e-9
 
 
+def test_force_is_the_gradient_of_the_energy():
+    """dU/dq by central differences, 1e-7 of the largest entry; bent, stretched and out of the plane."""
+    model, q = bent_in_space()
+
+    def energy(shift: np.ndarray) -> float:
+        here = q + shift
+        return model.forces(0.0, here, np.zeros_like(q), []).elastic
+
+    steps = 1e-6 * np.eye(q.size).reshape(q.size, *q.shape)
+    slopes = [(energy(d) - energy(-d)) / 2e-6 for d in steps]
+    F = force(model, q).ravel()
+    np.testing.assert_allclose(F, slopes, rtol=0, atol=1e-7 * np.abs(F).max())
+
+
 def test_tangent_is_the_derivative_of_the_force():
     """dF/dq + f dF/dv by central differences, damping on, 1e-6 of the largest entry (both are differences)."""
     model, q = bent_in_space(DampingTimes(2e-3, 3e-2))
