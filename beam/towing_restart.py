@@ -44,6 +44,8 @@ def resumed_run(
     _require_same(file, found, attributes)
     residual = float(found["static_residual_N"]), float(found["static_residual_N_m"])
     attributes |= {"static_residual_N": residual[0], "static_residual_N_m": residual[1]}
+    if not checkpoint_path(file).is_file():
+        raise InputError(f"{file}: this run was ended before its first checkpoint; start it again, without resuming.")
     motion = Integrator(model, model.q0, settings=settings)
     read_checkpoint(motion, checkpoint_path(file))
     instants = round(motion.t / scenario.time.frame.value) + 1

@@ -133,6 +133,9 @@ def test_nothing_to_resume_is_a_sentence(scenario, whole, tmp_path):
         tow(scenario, file=tmp_path / "run.nc", progress=stop)
     with pytest.raises(InputError, match=r"drive.speed = 6.86 m/min \(published\), not 9 m/min"):
         tow(scenario.changed(drive__speed="9 m/min"), file=tmp_path / "run.nc", resume=True)
+    (tmp_path / "run.checkpoint").unlink()
+    with pytest.raises(InputError, match="ended before its first checkpoint"):
+        tow(scenario, file=tmp_path / "run.nc", resume=True)
 
 
 def test_recorded_quantities_agree_with_each_other(whole):
