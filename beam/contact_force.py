@@ -99,7 +99,8 @@ def out_of_reach(p: Array, q: Array, e: int, length: float) -> bool:
 
 @inlined
 def point_contact(
-    p: Array, e: int, g: int, q: Array, v: Array, N: Array, anchors: Array, moved: Array, report: Array, weight: float,
+    p: Array, e: int, g: int, j: int, q: Array, v: Array, N: Array, anchors: Array, moved: Array, report: Array,
+    weight: float,
 ) -> tuple[float, float, float, float, float, float, float, float]:  # fmt: skip
     """One contact point: f_n, normal, friction, distance from the axis; adds to `report`.
 
@@ -111,7 +112,7 @@ def point_contact(
     x2 = (N0 * q[e, 2] + N1 * q[e, 5]) + (N2 * q[e + 1, 2] + N3 * q[e + 1, 5])
     gap, distance, n0, n1, n2 = gap_and_normal(p, x0, x1, x2)
     if gap <= 0.0:
-        moved[e, g, 0] = np.nan
+        moved[j, 0] = np.nan
         return -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     u0 = (N0 * v[e, 0] + N1 * v[e, 3]) + (N2 * v[e + 1, 0] + N3 * v[e + 1, 3]) - p[13]
     u1 = (N0 * v[e, 1] + N1 * v[e, 4]) + (N2 * v[e + 1, 1] + N3 * v[e + 1, 4]) - p[14]
@@ -124,7 +125,7 @@ def point_contact(
     if p[3] > 0.0:
         limit = p[3] * fn
         y0, y1, y2 = x0 - p[10], x1 - p[11], x2 - p[12]
-        a0, a1, a2 = anchors[e, g, 0], anchors[e, g, 1], anchors[e, g, 2]
+        a0, a1, a2 = anchors[j, 0], anchors[j, 1], anchors[j, 2]
         if a0 != a0:
             a0, a1, a2 = y0, y1, y2
         b0, b1, b2, t0, t1, t2 = bristle(p, y0, y1, y2, a0, a1, a2, u0, u1, u2, n0, n1, n2, closing)
@@ -134,11 +135,11 @@ def point_contact(
             t0, t1, t2 = scale * t0, scale * t1, scale * t2
             b0, b1, b2 = -t0 / p[4], -t1 / p[4], -t2 / p[4]
             a0, a1, a2 = y0 - b0, y1 - b1, y2 - b2
-        moved[e, g, 0], moved[e, g, 1], moved[e, g, 2] = a0, a1, a2
+        moved[j, 0], moved[j, 1], moved[j, 2] = a0, a1, a2
         report[1] += weight * 0.5 * p[4] * (b0 * b0 + b1 * b1 + b2 * b2)
         report[3] -= weight * (t0 * u0 + t1 * u1 + t2 * u2)
     else:
-        moved[e, g, 0] = np.nan
+        moved[j, 0] = np.nan
     f0, f1, f2 = fn * n0 + t0, fn * n1 + t1, fn * n2 + t2
     report[4] += weight * (f0 * p[13] + f1 * p[14] + f2 * p[15])
     if gap > report[5]:
@@ -148,8 +149,8 @@ def point_contact(
 
 @inlined
 def point_tangent(
-    p: Array, e: int, g: int, q: Array, v: Array, N: Array, anchors: Array, n: Array, distance: float, fn: float,
-    factor: float, trial: Array, K: Array,
+    p: Array, e: int, g: int, j: int, q: Array, v: Array, N: Array, anchors: Array, n: Array, distance: float,
+    fn: float, factor: float, trial: Array, K: Array,
 ) -> None:  # fmt: skip
     """Write the stiffness K = -d(force)/dx - factor d(force)/dv of a point in contact; `n` (3,) is its normal."""
     slope = p[1] + p[2] * factor if fn > 0.0 else 0.0
@@ -164,7 +165,7 @@ def point_tangent(
         x[i] -= p[10 + i]
         u[i] -= p[13 + i]
     closing = -(n[0] * u[0] + n[1] * u[1] + n[2] * u[2])
-    a0, a1, a2 = anchors[e, g, 0], anchors[e, g, 1], anchors[e, g, 2]
+    a0, a1, a2 = anchors[j, 0], anchors[j, 1], anchors[j, 2]
     if a0 != a0:
         a0, a1, a2 = x[0], x[1], x[2]
     _, _, _, t0, t1, t2 = bristle(
@@ -184,31 +185,35 @@ def shapes_at(xs: Array, length: float, N: Array) -> None:
 
 @inlined
 def contact_force(  # noqa: C901 - loops over components
-    p: Array, q: Array, v: Array, lengths: Array, xs: Array, ws: Array, anchors: Array, moved: Array,
+    p: Array, begin: int, q: Array, v: Array, lengths: Array, xs: Array, ws: Array, anchors: Array, moved: Array,
     F: Array, nodal: Array, friction: Array, report: Array, cone: Array, collect: bool,
     want_tangent: bool, factor: float, D: Array, U: Array, L: Array,
 ) -> None:  # fmt: skip
     """Subtract the contact forces of one surface from `F` (n + 1, 12) and add their tangent to the blocks.
 
-    `xs`, `ws` contact points in [0, 1] and weights; `anchors`, `moved` (n, points, 3) committed and candidate anchors
-    (NaN: none yet). To `collect` means to add all contact forces, and their friction part, to `nodal` and `friction` (n + 1, 3)
-    and to write |t| / (mu f_n) into `cone` (n, points). `report` receives penalty energy, bristle energy,
+    `xs`, `ws` contact points in [0, 1] and weights; `anchors`, `moved` committed and candidate anchors (NaN: none yet),
+    three numbers a contact point, those of this surface from row `begin` on. To `collect` means to add all contact
+    forces, and their friction part, to `nodal` and `friction` (n + 1, 3) and to write |t| / (mu f_n) into `cone`.
+    `report` receives penalty energy, bristle energy,
     power lost in normal damping, power of friction, power of the moving surface, deepest penetration, its element.
     """
     N, n, trial, K, at = np.empty((xs.size, 4)), np.empty(3), np.empty(3), np.zeros((3, 3)), -1.0
     for i in range(7):
         report[i] = 0.0
     for e in range(lengths.size):
+        j0 = begin + e * xs.size
         if out_of_reach(p, q, e, lengths[e]):
             for g in range(xs.size):
-                moved[e, g, 0] = np.nan
+                moved[j0 + g, 0] = np.nan
             continue
         if lengths[e] != at:
             at = lengths[e]
             shapes_at(xs, at, N)
         for g in range(xs.size):
             weight = ws[g] * at
-            fn, n0, n1, n2, t0, t1, t2, distance = point_contact(p, e, g, q, v, N, anchors, moved, report, weight)
+            fn, n0, n1, n2, t0, t1, t2, distance = point_contact(
+                p, e, g, j0 + g, q, v, N, anchors, moved, report, weight
+            )  # fmt: skip
             if fn < 0.0:
                 continue
             f0, f1, f2 = weight * (fn * n0 + t0), weight * (fn * n1 + t1), weight * (fn * n2 + t2)
@@ -219,20 +224,20 @@ def contact_force(  # noqa: C901 - loops over components
                 F[row, slot + 2] -= part * f2
             if collect:
                 n[0], n[1], n[2], trial[0], trial[1], trial[2] = f0, f1, f2, weight * t0, weight * t1, weight * t2
-                collect_point(e, g, xs[g], n, trial, p[3] * fn * weight, nodal, friction, cone)
+                collect_point(e, j0 + g, xs[g], n, trial, p[3] * fn * weight, nodal, friction, cone)
             if want_tangent:
                 n[0], n[1], n[2] = n0, n1, n2
-                point_tangent(p, e, g, q, v, N, anchors, n, distance, fn, factor, trial, K)
+                point_tangent(p, e, g, j0 + g, q, v, N, anchors, n, distance, fn, factor, trial, K)
                 scatter_contact(K, e, weight, N[g], D, U, L)
 
 
 @inlined
 def collect_point(
-    e: int, g: int, x: float, force: Array, shear: Array, limit: float, nodal: Array, friction: Array, cone: Array
+    e: int, j: int, x: float, force: Array, shear: Array, limit: float, nodal: Array, friction: Array, cone: Array
 ) -> None:
     """Share the force of one point, and its friction part, between the two nodes; write its use of the friction cone."""
     size = np.sqrt(shear[0] * shear[0] + shear[1] * shear[1] + shear[2] * shear[2])
-    cone[e, g] = size / limit if limit > 0.0 else 0.0
+    cone[j] = size / limit if limit > 0.0 else 0.0
     for i in range(3):
         nodal[e, i] += (1.0 - x) * force[i]
         nodal[e + 1, i] += x * force[i]
@@ -250,14 +255,11 @@ def contact_forces(
 
     `anchors`, `moved` (n points, 3) and `cone` (n points,) hold the surfaces one after the other; `reports` (surfaces, 7).
     """
-    n = lengths.size
     for k in range(P.shape[0]):
         i, j = first[k], first[k + 1]
-        shape = (n, j - i, 3)
         contact_force(
-            P[k], q, v, lengths, xs[i:j], ws[i:j], anchors[n * i : n * j].reshape(shape),
-            moved[n * i : n * j].reshape(shape), F, nodal, friction, reports[k],
-            cone[n * i : n * j].reshape((n, j - i)), collect, want_tangent, factor, D, U, L,
+            P[k], lengths.size * i, q, v, lengths, xs[i:j], ws[i:j], anchors, moved, F, nodal, friction, reports[k], cone,
+            collect, want_tangent, factor, D, U, L,
         )  # fmt: skip
 
 

@@ -184,9 +184,7 @@ def correct(state: StateArrays, delta: Array, rule: Rule) -> None:
 
 
 @kernel
-def move(
-    q: Array, v: Array, a: Array, w: Array, delta: Array, speed: float, algorithmic: float, true: float
-) -> None:
+def move(q: Array, v: Array, a: Array, w: Array, delta: Array, speed: float, algorithmic: float, true: float) -> None:
     """Subtract `delta` from `q`, and the given multiples of it from `v`, `a` and `w`."""
     for i in range(delta.shape[0]):
         for k in range(delta.shape[1]):

@@ -18,6 +18,7 @@ import importlib.util
 import sys
 import time
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -53,7 +54,7 @@ def peer_beam(kind: str, mbs: Any, elements: int) -> list[int]:
     """Straight cable along x in Exudyn; its node numbers."""
     import exudyn
     import exudyn.itemInterface as items  # noqa: N813
-    from exudyn.beams import GenerateStraightBeam, GenerateStraightLineANCFCable
+    from exudyn.beams import GenerateStraightLineANCFCable
 
     if kind == "cable":
         template = items.Cable(
@@ -67,12 +68,18 @@ def peer_beam(kind: str, mbs: Any, elements: int) -> list[int]:
     section.dampingMatrix = stiffness * np.repeat([AXIAL, BENDING], 3)
     section.inertia = np.diag([0.0052, 0.0026, 0.0026])
     section.massPerLength = 10.0
-    template = items.ObjectBeamGeometricallyExact(sectionData=section)
-    return GenerateStraightBeam(mbs, [0, 0, 0], [LENGTH, 0, 0], elements, template)[0]
+    step = LENGTH / elements
+    nodes = [
+        mbs.AddNode(items.NodeRigidBodyEP(referenceCoordinates=[i * step, 0, 0, 1, 0, 0, 0]))
+        for i in range(elements + 1)
+    ]
+    for pair in pairwise(nodes):
+        mbs.AddObject(items.ObjectBeamGeometricallyExact(nodeNumbers=list(pair), length=step, sectionData=section))
+    return nodes
 
 
-def floor(mbs: Any, nodes: list[int], ramp: SpeedRamp) -> None:
-    """Springs and bristle friction under every node, no motion across, the pulled end; its constraint is the last."""
+def floor(mbs: Any, nodes: list[int], ramp: SpeedRamp) -> Any:
+    """Springs and bristle friction under every node, no motion across, the pulled end; returns the constraint that pulls."""
     import exudyn.itemInterface as items  # noqa: N813
 
     ground = mbs.AddNode(items.NodePointGround())
@@ -97,7 +104,7 @@ def floor(mbs: Any, nodes: list[int], ramp: SpeedRamp) -> None:
         offsetUserFunction=lambda mbs, t, number, offset: float(ramp(t)[0][0]),
         offsetUserFunction_t=lambda mbs, t, number, offset: float(ramp(t)[1][0]),
     )
-    mbs.AddObject(travel)
+    return mbs.AddObject(travel)
 
 
 def solve(mbs: Any, end: float, h: float) -> float:
@@ -127,9 +134,9 @@ def peer_pull(kind: str, elements: int, ramp: SpeedRamp, end: float, h: float) -
     system = exudyn.SystemContainer()
     mbs = system.AddSystem()
     nodes = peer_beam(kind, mbs, elements)
-    floor(mbs, nodes, ramp)
+    travel = floor(mbs, nodes, ramp)
     seconds = solve(mbs, end, h)
-    return seconds, abs(float(mbs.systemData.GetAECoordinates()[-1]))
+    return seconds, abs(float(np.ravel(mbs.GetObjectOutput(travel, exudyn.OutputVariableType.Force))[0]))
 
 
 def own_pendulum(h: float) -> tuple[float, Any]:
