@@ -59,8 +59,8 @@ def internal_tangent(
     given = (w, C, C_damping, E0, m, J, mass, D, U, L)
     rest = tangent_on_one_branch(q, v, a, moving, factor, factor_a, lengths, x, H, *given)
     if rest:
-        for e in np.nonzero([on_two_branches(q, e) for e in range(lengths.size)])[0]:
-            difference_element(q, v, a, moving, factor, factor_a, int(e), lengths, H, *given)
+        for e in [e for e in range(lengths.size) if on_two_branches(q, e)]:
+            difference_element(q, v, a, moving, factor, factor_a, e, lengths, H, *given)
 
 
 @kernel
