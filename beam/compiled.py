@@ -53,7 +53,7 @@ def inlined(function: Function) -> Function:
     return _compiled(function, inline="always")
 
 
-def _compiled(function: Function, **options: str) -> Function:
+def _compiled(function: Function, **options: Any) -> Function:
     if _numba is None:
         return function
     compiled: Any = _numba.njit(cache=True, error_model="numpy", fastmath={"contract"}, **options)(function)
