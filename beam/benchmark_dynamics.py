@@ -29,13 +29,12 @@ SOFT_TIPS = {0.2: (1.17993, -0.19620), 0.4: (0.85285, -0.78552), 0.6: (-0.33476,
 """The same for E 0.7 MPa; later its tip whips."""
 
 
-def pendulum(elements: int, E: float = 7e6) -> RodModel:
-    """The flexible pendulum, at rest in the horizontal."""
+def pendulum(elements: int, E: float = 7e6, kind: type[Rod] = Rod, stiffening: float = 1.0) -> RodModel:
+    """The flexible pendulum, at rest in the horizontal; its shear stiffness times `stiffening`."""
     A, I, rho, G = 0.0018, 1.215e-8, 5540.0, E / 2.6
-    section = SectionStiffness.uncoupled(
-        EA=E * A, GA_x=5 / 6 * G * A, GA_y=5 / 6 * G * A, EI_x=E * I, EI_y=E * I, GJ=2 * G * I, area=A
-    )
-    rod = Rod.straight(1.2, elements, section, SectionInertia(rho * A, rho * I, rho * I, 2 * rho * I))
+    GA = stiffening * 5 / 6 * G * A
+    section = SectionStiffness.uncoupled(EA=E * A, GA_x=GA, GA_y=GA, EI_x=E * I, EI_y=E * I, GJ=2 * G * I, area=A)
+    rod = kind.straight(1.2, elements, section, SectionInertia(rho * A, rho * I, rho * I, 2 * rho * I))
     return RodModel(rod, straight(rod.s), [Support(0, ("r",))], gravity=(0.0, -9.81, 0.0))
 
 
@@ -76,11 +75,11 @@ def order_of_integration(rho: float) -> Iterable[Benchmark]:
         yield band(name, "Chung, Hulbert 1993", f"order, halving {i + 1}", 1.8, 2.2, float(slope))
 
 
-def axial_wave() -> Iterable[Benchmark]:
+def axial_wave(kind: type[Rod] = Rod) -> Iterable[Benchmark]:
     """Speed sqrt(EA / m) from the half-height passage at 4 m and 12 m of a 16 m rod."""
     EA, m = 4.712e5, 10.0
     section = SectionStiffness.uncoupled(EA=EA, GA_x=2e5, GA_y=2e5, EI_x=124.0, EI_y=124.0, GJ=86.0, area=1.0)
-    rod = Rod.straight(16.0, 80, section, SectionInertia(m, 0.0026, 0.0026, 0.0052))
+    rod = kind.straight(16.0, 80, section, SectionInertia(m, 0.0026, 0.0026, 0.0052))
     jerk = SpeedRamp(speed=-0.05, start=0.0, end=4e-3)
     model = RodModel(rod, straight(rod.s), [Support(0, travel=jerk)])
     motion = Integrator(model, model.q0, settings=StepSettings(2.5e-4, adaptive=False))

@@ -31,10 +31,11 @@ def cable_on_floor(
     length: float = LENGTH,
     slope: float = 0.0,
     bristle_ratio: float = 5.0,
+    kind: type[Rod] = Rod,
 ) -> RodModel:
     """A straight cable on a floor, in contact with its weight; `slope` [rad] turns the gravity."""
     inertia = SectionInertia(10.0, 0.0026, 0.0026, 0.0052)
-    rod = Rod.straight(length, elements, FLOOR_SECTION, inertia, DampingTimes(5e-3, 2e-2))
+    rod = kind.straight(length, elements, FLOOR_SECTION, inertia, DampingTimes(5e-3, 2e-2))
     floor = Plane("floor", ContactLaw(friction=MU, bristle_ratio=bristle_ratio))
     start = straight(rod.s)
     start[:, 1] = -WEIGHT * np.cos(slope) / 1.25e6
@@ -42,9 +43,9 @@ def cable_on_floor(
     return RodModel(rod, start, list(supports), gravity=gravity, surfaces=[floor])
 
 
-def pulled_cable(u: float = 5e-3) -> tuple[Integrator, list[float]]:
+def pulled_cable(u: float = 5e-3, kind: type[Rod] = Rod) -> tuple[Integrator, list[float]]:
     """One end pulled slowly by u [m]; the largest |t| / (mu f_n) of every step."""
-    model = cable_on_floor(64, [Support(-1, ("x", "theta"), SpeedRamp(u / 2.5, 0.0, 3.0))])
+    model = cable_on_floor(64, [Support(-1, ("x", "theta"), SpeedRamp(u / 2.5, 0.0, 3.0))], kind=kind)
     start = equilibrium(model)
     start.outcome.require_success()
     motion = Integrator(model, start.q, anchors=start.anchors, settings=StepSettings(5e-3))
@@ -54,10 +55,10 @@ def pulled_cable(u: float = 5e-3) -> tuple[Integrator, list[float]]:
     return motion, cones
 
 
-def stick_slip() -> Iterable[Benchmark]:
+def stick_slip(kind: type[Rod] = Rod) -> Iterable[Benchmark]:
     """F = sqrt(2 EA mu w u), slip length F / (mu w); nothing moves beyond it; half of the work is friction."""
     u, name, source = 5e-3, "F1 stick-slip on a floor, u 5 mm", "exact: Coulomb, linear cable"
-    motion, cones = pulled_cable(u)
+    motion, cones = pulled_cable(u, kind)
     force = float(np.sqrt(2 * EA * MU * WEIGHT * u))
     slips = motion.forces.cones[0] > 1 - 1e-9
     length = float((slips * GAUSS_W).sum()) * LENGTH / slips.shape[0]
@@ -84,28 +85,31 @@ def exact_stick() -> Iterable[Benchmark]:
     yield Benchmark("F2 stick on a slope of 0.25 rad", "Coulomb", "creep in 10 s [m]", 0.0, creep, 1e-9, scale=1.0)
 
 
-def capstan(mu: float) -> Iterable[Benchmark]:
-    """Half a turn on a drum that does not turn, 40 elements on the arc: T2 / T1 = exp(mu pi)."""
+def capstan(mu: float, beta: float = np.pi, kind: type[Rod] = Rod) -> Iterable[Benchmark]:
+    """An angle beta on a drum that does not turn, 40 elements on the arc: T2 / T1 = exp(mu beta)."""
     R, strand = DRUM_RADIUS, DRUM_STRAND
     EI = 2e-3
     section = SectionStiffness.uncoupled(EA=1e5, GA_x=1e4, GA_y=1e4, EI_x=EI, EI_y=EI, GJ=EI, area=1.0)
     inertia = SectionInertia(1.0, 1e-5, 1e-5, 2e-5)
-    rod = Rod.straight(2 * strand + np.pi * R, 78, section, inertia, DampingTimes(2e-3, 2e-2))
-    start = strands_and_arcs(rod.s, [(strand, 0.0), (np.pi * R, -1 / R), (strand, 0.0)], (-R, -strand, 0), np.pi / 2)
+    arc = beta * R
+    elements = round(40 * (2 * strand + arc) / arc)
+    rod = kind.straight(2 * strand + arc, elements, section, inertia, DampingTimes(2e-3, 2e-2))
+    start = strands_and_arcs(rod.s, [(strand, 0.0), (arc, -1 / R), (strand, 0.0)], (-R, -strand, 0), np.pi / 2)
     load = np.zeros((rod.nodes, 12))
     load[0, 1] = -DRUM_TENSION
     drum = Cylinder("drum", ContactLaw(friction=mu), (0.0, 0.0, 0.0), R)
-    pull = SpeedRamp(0.01, 0.0, 0.5, direction=(0.0, -1.0, 0.0))
+    away = np.array([np.sin(beta), np.cos(beta), 0.0]).round(15)
+    pull = SpeedRamp(0.01, 0.0, 0.5, direction=(float(away[0]), float(away[1]), 0.0))
     model = RodModel(rod, start, [Support(-1, travel=pull)], load=load, surfaces=[drum])
     rest = equilibrium(model)
     rest.outcome.require_success()
-    name, still = f"F2 capstan, mu {mu:g}, half a turn", float(-rest.forces.F[-1, 1])
+    name, still = f"F2 capstan, mu {mu:g}, {np.degrees(beta):.0f} deg", float(rest.forces.F[-1, 0:3] @ away)
     yield Benchmark(name, "balance", "T2 without friction [N]", DRUM_TENSION, still, 1e-3)
     motion = Integrator(model, rest.q, anchors=rest.anchors, settings=StepSettings(5e-3))
     if not motion.advance(200):
         raise ConvergenceError(str(motion.outcome))
-    ratio = float(-motion.reaction[-1, 1] / DRUM_TENSION)
-    yield Benchmark(name, "Euler, Eytelwein", "T2 / T1", float(np.exp(mu * np.pi)), ratio, 1e-2)
+    ratio = float(motion.reaction[-1, 0:3] @ away / DRUM_TENSION)
+    yield Benchmark(name, "Euler, Eytelwein", "T2 / T1", float(np.exp(mu * beta)), ratio, 1e-2)
 
 
 def friction_cases() -> tuple[Case, ...]:
@@ -113,5 +117,8 @@ def friction_cases() -> tuple[Case, ...]:
     return (
         Case("F1 stick-slip on a floor", "exact", stick_slip),
         Case("F2 stick on a slope", "Coulomb", exact_stick),
-        *(Case(f"F2 capstan, mu {mu:g}", "Euler, Eytelwein", partial(capstan, mu)) for mu in (0.1, 0.3)),
+        *(
+            Case(f"F2 capstan, mu {mu:g}, {b:g} deg", "Euler, Eytelwein", partial(capstan, mu, np.radians(b)))
+            for mu, b in ((0.1, 180), (0.3, 180), (0.3, 90))
+        ),
     )

@@ -138,11 +138,11 @@ def pure_bend(elements: int, N_bound: float, Q_bound: float) -> Iterable[Benchma
     yield Benchmark(name, "exact", "M [N m]", EI / R, float(worst), 1e-2 * (8 / elements) ** 2)
 
 
-def hanging(elements: int) -> tuple[Rod, Equilibrium]:
+def hanging(elements: int, kind: type[Rod] = Rod) -> tuple[Rod, Equilibrium]:
     """A heavy, limp, nearly inextensible cable between two points, from the circular arc of the same length and span."""
     section = SectionStiffness.uncoupled(EA=1e8, GA_x=1e6, GA_y=1e6, EI_x=0.02, EI_y=0.02, GJ=0.02, area=1e-3)
     half = float(np.asarray(brentq(lambda x: np.sin(x) / x - SPAN / LENGTH, 0.1, 3.0)))
-    rod = Rod.straight(LENGTH, elements, section, SectionInertia(10.0, 1e-3, 1e-3, 2e-3))
+    rod = kind.straight(LENGTH, elements, section, SectionInertia(10.0, 1e-3, 1e-3, 2e-3))
     start = strands_and_arcs(rod.s, [(LENGTH, 2 * half / LENGTH)], angle=-half)
     model = RodModel(rod, start, [Support(0, ("r",)), Support(-1, ("r",))], gravity=(0.0, -9.81, 0.0))
     result = equilibrium(model)
@@ -155,13 +155,13 @@ def catenary_parameter() -> float:
     return float(np.asarray(brentq(lambda a: 2 * a * np.sinh(SPAN / (2 * a)) - LENGTH, 0.5, 100.0)))
 
 
-def catenary() -> Iterable[Benchmark]:
+def catenary(kind: type[Rod] = Rod) -> Iterable[Benchmark]:
     """Sag a (cosh(span/2a) - 1), horizontal force w a, half the weight on each support, mirrored halves.
 
     The bending stiffness rounds the ends by sqrt(EI/H) = 8 mm, so that the sag is met to 0.1 %.
     """
     a = catenary_parameter()
-    _, result = hanging(80)
+    _, result = hanging(80, kind)
     F, name, source = result.forces.F, "R5 catenary", "y = a cosh(x/a)"
     sag = a * (np.cosh(SPAN / (2 * a)) - 1)
     yield Benchmark(name, source, "sag [m]", float(sag), float(-result.q[40, 1]), 1e-3)

@@ -32,7 +32,7 @@ def source_stamp(folder: Path = _HERE) -> str:
     digest = hashlib.sha256()
     for path in sorted({*_HERE.glob("*.py"), *folder.glob("*.py")}):
         text = path.read_bytes()
-        if b"@kernel" in text:
+        if b"@kernel" in text or b"@inlined" in text:
             digest.update(text)
     return digest.hexdigest()
 
@@ -42,9 +42,21 @@ def kernel(function: Function) -> Function:
 
     Sums may be contracted into fused multiply-adds but are not reordered, and NaN stays NaN, so that it can be found.
     """
+    return _compiled(function)
+
+
+def inlined(function: Function) -> Function:
+    """A :func:`kernel` whose lines are copied into the kernels that call it, so that they are compiled there only.
+
+    For the long ones with one caller: compiling them once more by themselves costs seconds and is never used.
+    """
+    return _compiled(function, inline="always")
+
+
+def _compiled(function: Function, **options: Any) -> Function:
     if _numba is None:
         return function
-    compiled: Any = _numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(function)
+    compiled: Any = _numba.njit(cache=True, error_model="numpy", fastmath={"contract"}, **options)(function)
     stored: Any = getattr(getattr(compiled, "_cache", None), "_cache_file", None)
     if hasattr(stored, "_source_stamp"):
         stored._source_stamp = source_stamp(Path(function.__code__.co_filename).parent)  # type: ignore[attr-defined]

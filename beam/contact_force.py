@@ -19,7 +19,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.compiled import kernel
+from beam.compiled import inlined, kernel
 from beam.hermite import hermite_values
 
 Array = NDArray[np.float64]
@@ -30,43 +30,24 @@ PARAMETERS = 23
 
 
 @kernel
-def gap_and_normal(p: Array, x: Array, n: Array) -> tuple[float, float]:
-    """Penetration of the point `x` and distance from the cylinder's axis; writes the outward normal into `n`."""
+def gap_and_normal(p: Array, x0: float, x1: float, x2: float) -> tuple[float, float, float, float, float]:
+    """Penetration of the point x, distance from the cylinder's axis, outward normal; no contact outside the box."""
+    if x0 < p[17] or x0 > p[20] or x1 < p[18] or x1 > p[21] or x2 < p[19] or x2 > p[22]:
+        return -1.0, 1e30, 0.0, 0.0, 0.0
     if p[0] == PLANE:
-        n[0], n[1], n[2] = p[6], p[7], p[8]
-        return p[9] - (n[0] * x[0] + n[1] * x[1] + n[2] * x[2]), 1e30
-    dx, dy = x[0] - p[10], x[1] - p[11]
+        return p[9] - (p[6] * x0 + p[7] * x1 + p[8] * x2), 1e30, p[6], p[7], p[8]
+    dx, dy = x0 - p[10], x1 - p[11]
     distance = max(np.sqrt(dx * dx + dy * dy), 1e-12)
-    n[0], n[1], n[2] = dx / distance, dy / distance, 0.0
-    return p[16] - distance, distance
+    return p[16] - distance, distance, dx / distance, dy / distance, 0.0
 
 
 @kernel
-def normal_force(
-    p: Array,
-    gap: float,
-    distance: float,
-    u: Array,
-    n: Array,
-    want_tangent: bool,
-    factor: float,
-    normal: Array,
-    K: Array,
-) -> tuple[float, float, float, float]:
-    """Normal force per length; returns its size, d(size)/d(gap) with damping, the closing speed and the power lost."""
-    closing = -(n[0] * u[0] + n[1] * u[1] + n[2] * u[2])
-    size = p[1] * gap + p[2] * closing
-    slope = p[1] + p[2] * factor
-    if size <= 0.0:
-        size, slope = 0.0, 0.0
+def normal_tangent(n: Array, slope: float, curvature: float, K: Array) -> None:
+    """Write the derivative of the normal force: `slope` along n, `curvature` = f_n / radius across it in the plane."""
     for i in range(3):
-        normal[i] = size * n[i]
-    if want_tangent:
-        for i in range(3):
-            for j in range(3):
-                across = (1.0 if i == j and i < 2 else 0.0) - n[i] * n[j]
-                K[i, j] = slope * n[i] * n[j] - size / distance * across
-    return size, slope, closing, (size - p[1] * gap) * closing
+        for j in range(3):
+            across = (1.0 if i == j and i < 2 else 0.0) - n[i] * n[j]
+            K[i, j] = slope * n[i] * n[j] - curvature * across
 
 
 @kernel
@@ -84,62 +65,17 @@ def friction_tangent(
 
 
 @kernel
-def friction_force(
-    p: Array, x: Array, u: Array, n: Array, fn: float, fn_gap: float, closing: float, want_tangent: bool, factor: float,
-    anchors: Array, e: int, g: int, shear: Array, moved: Array, K: Array,
-) -> tuple[float, float]:  # fmt: skip
-    """Friction per length by the return map; writes the anchor to commit, returns bristle energy and friction power."""
-    kt, ct, limit = p[4], p[5], p[3] * fn
-    y0, y1, y2 = x[0] - p[10], x[1] - p[11], x[2] - p[12]
-    a0, a1, a2 = anchors[e, g, 0], anchors[e, g, 1], anchors[e, g, 2]
-    if a0 != a0:
-        a0, a1, a2 = y0, y1, y2
-    n0, n1, n2 = n[0], n[1], n[2]
+def bristle(
+    p: Array, y0: float, y1: float, y2: float, a0: float, a1: float, a2: float, u0: float, u1: float, u2: float,
+    n0: float, n1: float, n2: float, closing: float,
+) -> tuple[float, float, float, float, float, float]:  # fmt: skip
+    """Bristle b from the anchor a to the point y, and trial friction -kt b - ct v, along the surface."""
     along = n0 * (y0 - a0) + n1 * (y1 - a1) + n2 * (y2 - a2)
     b0, b1, b2 = y0 - a0 - along * n0, y1 - a1 - along * n1, y2 - a2 - along * n2
-    t0 = -kt * b0 - ct * (u[0] + closing * n0)
-    t1 = -kt * b1 - ct * (u[1] + closing * n1)
-    t2 = -kt * b2 - ct * (u[2] + closing * n2)
-    size = np.sqrt(t0 * t0 + t1 * t1 + t2 * t2)
-    if want_tangent:
-        shear[0], shear[1], shear[2] = t0, t1, t2
-        friction_tangent(n, shear, size, limit, kt + ct * factor, p[3] * fn_gap, K)
-    if size > limit:
-        scale = limit / size
-        t0, t1, t2 = scale * t0, scale * t1, scale * t2
-        b0, b1, b2 = -t0 / kt, -t1 / kt, -t2 / kt
-        a0, a1, a2 = y0 - b0, y1 - b1, y2 - b2
-    shear[0], shear[1], shear[2] = t0, t1, t2
-    moved[e, g, 0], moved[e, g, 1], moved[e, g, 2] = a0, a1, a2
-    return 0.5 * kt * (b0 * b0 + b1 * b1 + b2 * b2), -(t0 * u[0] + t1 * u[1] + t2 * u[2])
-
-
-@kernel
-def point_force(
-    p: Array, x: Array, u: Array, want_tangent: bool, factor: float, anchors: Array, e: int, g: int,
-    n: Array, normal: Array, shear: Array, moved: Array, K: Array,
-) -> tuple[float, float, float, float, float]:  # fmt: skip
-    """Force per length at the point `x` with velocity `u` relative to the surface's own motion.
-
-    Writes the normal and the friction force, the anchor to commit (`moved`, relative to the centre; NaN without contact)
-    and the stiffness K = -d(force)/dx - factor d(force)/dv. Returns penetration, penalty energy, bristle energy, power
-    lost in normal damping, power of friction; the penetration is negative where there is no contact.
-    """
-    gap, distance = gap_and_normal(p, x, n)
-    moved[e, g, 0] = np.nan
-    for i in range(3):
-        if x[i] < p[17 + i] or x[i] > p[20 + i]:
-            gap = -1.0
-    if gap <= 0.0:
-        return gap, 0.0, 0.0, 0.0, 0.0
-    fn, fn_gap, closing, lost = normal_force(p, gap, distance, u, n, want_tangent, factor, normal, K)
-    stored, power = 0.0, 0.0
-    shear[0], shear[1], shear[2] = 0.0, 0.0, 0.0
-    if p[3] > 0.0:
-        stored, power = friction_force(
-            p, x, u, n, fn, fn_gap, closing, want_tangent, factor, anchors, e, g, shear, moved, K
-        )
-    return gap, 0.5 * p[1] * gap * gap, stored, lost, power
+    t0 = -p[4] * b0 - p[5] * (u0 + closing * n0)
+    t1 = -p[4] * b1 - p[5] * (u1 + closing * n1)
+    t2 = -p[4] * b2 - p[5] * (u2 + closing * n2)
+    return b0, b1, b2, t0, t1, t2
 
 
 @kernel
@@ -161,85 +97,170 @@ def out_of_reach(p: Array, q: Array, e: int, length: float) -> bool:
     return True
 
 
-@kernel
-def interpolate_point(q: Array, v: Array, e: int, N: Array, drift: Array, x: Array, u: Array) -> None:
-    """Write position and velocity relative to `drift` (3 values from index 13 on) of a point of element `e`."""
-    n0, n1, n2, n3 = N[0], N[1], N[2], N[3]
-    for i in range(3):
-        x[i] = n0 * q[e, i] + n1 * q[e, 3 + i] + n2 * q[e + 1, i] + n3 * q[e + 1, 3 + i]
-        u[i] = n0 * v[e, i] + n1 * v[e, 3 + i] + n2 * v[e + 1, i] + n3 * v[e + 1, 3 + i] - drift[13 + i]
+@inlined
+def point_contact(
+    p: Array, e: int, g: int, j: int, q: Array, v: Array, N: Array, anchors: Array, moved: Array, report: Array,
+    weight: float,
+) -> tuple[float, float, float, float, float, float, float, float]:  # fmt: skip
+    """One contact point: f_n, normal, friction, distance from the axis; adds to `report`.
+
+    Writes the anchor to commit (`moved`, relative to the surface's centre). f_n is -1 without contact.
+    """
+    N0, N1, N2, N3 = N[g, 0], N[g, 1], N[g, 2], N[g, 3]
+    x0 = (N0 * q[e, 0] + N1 * q[e, 3]) + (N2 * q[e + 1, 0] + N3 * q[e + 1, 3])
+    x1 = (N0 * q[e, 1] + N1 * q[e, 4]) + (N2 * q[e + 1, 1] + N3 * q[e + 1, 4])
+    x2 = (N0 * q[e, 2] + N1 * q[e, 5]) + (N2 * q[e + 1, 2] + N3 * q[e + 1, 5])
+    gap, distance, n0, n1, n2 = gap_and_normal(p, x0, x1, x2)
+    if gap <= 0.0:
+        moved[j, 0] = np.nan
+        return -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    u0 = (N0 * v[e, 0] + N1 * v[e, 3]) + (N2 * v[e + 1, 0] + N3 * v[e + 1, 3]) - p[13]
+    u1 = (N0 * v[e, 1] + N1 * v[e, 4]) + (N2 * v[e + 1, 1] + N3 * v[e + 1, 4]) - p[14]
+    u2 = (N0 * v[e, 2] + N1 * v[e, 5]) + (N2 * v[e + 1, 2] + N3 * v[e + 1, 5]) - p[15]
+    closing = -(n0 * u0 + n1 * u1 + n2 * u2)
+    fn = max(p[1] * gap + p[2] * closing, 0.0)
+    report[0] += weight * 0.5 * p[1] * gap * gap
+    report[2] += weight * (fn - p[1] * gap) * closing
+    t0, t1, t2 = 0.0, 0.0, 0.0
+    if p[3] > 0.0:
+        limit = p[3] * fn
+        y0, y1, y2 = x0 - p[10], x1 - p[11], x2 - p[12]
+        a0, a1, a2 = anchors[j, 0], anchors[j, 1], anchors[j, 2]
+        if a0 != a0:
+            a0, a1, a2 = y0, y1, y2
+        b0, b1, b2, t0, t1, t2 = bristle(p, y0, y1, y2, a0, a1, a2, u0, u1, u2, n0, n1, n2, closing)
+        size = np.sqrt(t0 * t0 + t1 * t1 + t2 * t2)
+        if size > limit:
+            scale = limit / size
+            t0, t1, t2 = scale * t0, scale * t1, scale * t2
+            b0, b1, b2 = -t0 / p[4], -t1 / p[4], -t2 / p[4]
+            a0, a1, a2 = y0 - b0, y1 - b1, y2 - b2
+        moved[j, 0], moved[j, 1], moved[j, 2] = a0, a1, a2
+        report[1] += weight * 0.5 * p[4] * (b0 * b0 + b1 * b1 + b2 * b2)
+        report[3] -= weight * (t0 * u0 + t1 * u1 + t2 * u2)
+    else:
+        moved[j, 0] = np.nan
+    f0, f1, f2 = fn * n0 + t0, fn * n1 + t1, fn * n2 + t2
+    report[4] += weight * (f0 * p[13] + f1 * p[14] + f2 * p[15])
+    if gap > report[5]:
+        report[5], report[6] = gap, e
+    return fn, n0, n1, n2, t0, t1, t2, distance
 
 
-@kernel
-def scatter_force(
-    e: int, x: float, weight: float, N: Array, normal: Array, shear: Array, F: Array, nodal: Array, friction: Array
+@inlined
+def point_tangent(
+    p: Array, e: int, g: int, j: int, q: Array, v: Array, N: Array, anchors: Array, n: Array, distance: float,
+    fn: float, factor: float, trial: Array, K: Array,
 ) -> None:  # fmt: skip
-    """Subtract the force of one point from `F`; collect it, and its friction part, at the two nodes."""
-    n0, n1, n2, n3 = N[0], N[1], N[2], N[3]
+    """Write the stiffness K = -d(force)/dx - factor d(force)/dv of a point in contact; `n` (3,) is its normal."""
+    slope = p[1] + p[2] * factor if fn > 0.0 else 0.0
+    normal_tangent(n, slope, fn / distance, K)
+    if p[3] == 0.0:
+        return
+    x, u = np.zeros(3), np.zeros(3)
     for i in range(3):
-        f, t = weight * (normal[i] + shear[i]), weight * shear[i]
-        F[e, i] -= n0 * f
-        F[e, 3 + i] -= n1 * f
-        F[e + 1, i] -= n2 * f
-        F[e + 1, 3 + i] -= n3 * f
-        nodal[e, i] += (1.0 - x) * f
-        nodal[e + 1, i] += x * f
-        friction[e, i] += (1.0 - x) * t
-        friction[e + 1, i] += x * t
+        for k in range(4):
+            x[i] += N[g, k] * q[e + k // 2, 3 * (k % 2) + i]
+            u[i] += N[g, k] * v[e + k // 2, 3 * (k % 2) + i]
+        x[i] -= p[10 + i]
+        u[i] -= p[13 + i]
+    closing = -(n[0] * u[0] + n[1] * u[1] + n[2] * u[2])
+    a0, a1, a2 = anchors[j, 0], anchors[j, 1], anchors[j, 2]
+    if a0 != a0:
+        a0, a1, a2 = x[0], x[1], x[2]
+    _, _, _, t0, t1, t2 = bristle(
+        p, x[0], x[1], x[2], a0, a1, a2, u[0], u[1], u[2], n[0], n[1], n[2], closing
+    )  # fmt: skip
+    trial[0], trial[1], trial[2] = t0, t1, t2
+    size = np.sqrt(t0 * t0 + t1 * t1 + t2 * t2)
+    friction_tangent(n, trial, size, p[3] * fn, p[4] + p[5] * factor, p[3] * slope, K)
 
 
 @kernel
-def friction_use(mu: float, normal: Array, shear: Array) -> float:
-    """|t| / (mu f_n), one in slip."""
-    fn2 = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]
-    if mu <= 0.0 or fn2 <= 0.0:
-        return 0.0
-    return np.sqrt((shear[0] * shear[0] + shear[1] * shear[1] + shear[2] * shear[2]) / fn2) / mu
+def shapes_at(xs: Array, length: float, N: Array) -> None:
+    """Write the shape functions of an element at the contact points into `N` (points, 4)."""
+    for g in range(xs.size):
+        hermite_values(xs[g], length, N[g])
 
 
-@kernel
-def contact_force(
-    p: Array, q: Array, v: Array, lengths: Array, xs: Array, ws: Array, anchors: Array, moved: Array,
-    F: Array, nodal: Array, friction: Array, report: Array, cone: Array,
+@inlined
+def contact_force(  # noqa: C901 - loops over components
+    p: Array, begin: int, q: Array, v: Array, lengths: Array, xs: Array, ws: Array, anchors: Array, moved: Array,
+    F: Array, nodal: Array, friction: Array, report: Array, cone: Array, collect: bool,
     want_tangent: bool, factor: float, D: Array, U: Array, L: Array,
 ) -> None:  # fmt: skip
     """Subtract the contact forces of one surface from `F` (n + 1, 12) and add their tangent to the blocks.
 
-    `xs`, `ws` contact points in [0, 1] and weights; `anchors`, `moved` (n, points, 3) committed and candidate anchors
-    (NaN: none yet); `nodal`, `friction` (n + 1, 3) all contact forces, and their friction
-    part, collected at the nodes; `cone` (n, points) is |t| / (mu f_n). `report` receives penalty energy, bristle energy,
+    `xs`, `ws` contact points in [0, 1] and weights; `anchors`, `moved` committed and candidate anchors (NaN: none yet),
+    three numbers a contact point, those of this surface from row `begin` on. To `collect` means to add all contact
+    forces, and their friction part, to `nodal` and `friction` (n + 1, 3) and to write |t| / (mu f_n) into `cone`.
+    `report` receives penalty energy, bristle energy,
     power lost in normal damping, power of friction, power of the moving surface, deepest penetration, its element.
     """
-    N = np.empty(4)
-    x, u, n, normal, shear = np.empty(3), np.empty(3), np.empty(3), np.empty(3), np.empty(3)
-    K = np.zeros((3, 3))
-    report[:] = 0.0
-    cone[:] = 0.0
+    N, n, trial, K, at = np.empty((xs.size, 4)), np.empty(3), np.empty(3), np.zeros((3, 3)), -1.0
+    for i in range(7):
+        report[i] = 0.0
     for e in range(lengths.size):
+        j0 = begin + e * xs.size
         if out_of_reach(p, q, e, lengths[e]):
-            moved[e] = np.nan
+            for g in range(xs.size):
+                moved[j0 + g, 0] = np.nan
             continue
+        if lengths[e] != at:
+            at = lengths[e]
+            shapes_at(xs, at, N)
         for g in range(xs.size):
-            hermite_values(xs[g], lengths[e], N)
-            interpolate_point(q, v, e, N, p, x, u)
-            gap, pressed, stored, lost, power = point_force(
-                p, x, u, want_tangent, factor, anchors, e, g, n, normal, shear, moved, K
-            )
-            if gap <= 0.0:
+            weight = ws[g] * at
+            fn, n0, n1, n2, t0, t1, t2, distance = point_contact(
+                p, e, g, j0 + g, q, v, N, anchors, moved, report, weight
+            )  # fmt: skip
+            if fn < 0.0:
                 continue
-            weight = ws[g] * lengths[e]
-            report[0] += weight * pressed
-            report[1] += weight * stored
-            report[2] += weight * lost
-            report[3] += weight * power
-            for i in range(3):
-                report[4] += weight * (normal[i] + shear[i]) * p[13 + i]
-            if gap > report[5]:
-                report[5], report[6] = gap, e
-            cone[e, g] = friction_use(p[3], normal, shear)
-            scatter_force(e, xs[g], weight, N, normal, shear, F, nodal, friction)
+            f0, f1, f2 = weight * (fn * n0 + t0), weight * (fn * n1 + t1), weight * (fn * n2 + t2)
+            for k in range(4):
+                row, slot, part = e + k // 2, 3 * (k % 2), N[g, k]
+                F[row, slot] -= part * f0
+                F[row, slot + 1] -= part * f1
+                F[row, slot + 2] -= part * f2
+            if collect:
+                n[0], n[1], n[2], trial[0], trial[1], trial[2] = f0, f1, f2, weight * t0, weight * t1, weight * t2
+                collect_point(e, j0 + g, xs[g], n, trial, p[3] * fn * weight, nodal, friction, cone)
             if want_tangent:
-                scatter_contact(K, e, weight, N, D, U, L)
+                n[0], n[1], n[2] = n0, n1, n2
+                point_tangent(p, e, g, j0 + g, q, v, N, anchors, n, distance, fn, factor, trial, K)
+                scatter_contact(K, e, weight, N[g], D, U, L)
+
+
+@inlined
+def collect_point(
+    e: int, j: int, x: float, force: Array, shear: Array, limit: float, nodal: Array, friction: Array, cone: Array
+) -> None:
+    """Share the force of one point, and its friction part, between the two nodes; write its use of the friction cone."""
+    size = np.sqrt(shear[0] * shear[0] + shear[1] * shear[1] + shear[2] * shear[2])
+    cone[j] = size / limit if limit > 0.0 else 0.0
+    for i in range(3):
+        nodal[e, i] += (1.0 - x) * force[i]
+        nodal[e + 1, i] += x * force[i]
+        friction[e, i] += (1.0 - x) * shear[i]
+        friction[e + 1, i] += x * shear[i]
+
+
+@kernel
+def contact_forces(
+    P: Array, first: NDArray[np.int64], xs: Array, ws: Array, q: Array, v: Array, lengths: Array, anchors: Array, moved: Array,
+    F: Array, nodal: Array, friction: Array, reports: Array, cone: Array, collect: bool,
+    want_tangent: bool, factor: float, D: Array, U: Array, L: Array,
+) -> None:  # fmt: skip
+    """:func:`contact_force` of all surfaces: parameters `P` (surfaces, 23), contact points of surface k from `first`[k] on.
+
+    `anchors`, `moved` (n points, 3) and `cone` (n points,) hold the surfaces one after the other; `reports` (surfaces, 7).
+    """
+    for k in range(P.shape[0]):
+        i, j = first[k], first[k + 1]
+        contact_force(
+            P[k], lengths.size * i, q, v, lengths, xs[i:j], ws[i:j], anchors, moved, F, nodal, friction, reports[k], cone,
+            collect, want_tangent, factor, D, U, L,
+        )  # fmt: skip
 
 
 @kernel

@@ -15,12 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
 from beam.rod_model import Forces, RodModel
-
-Array = NDArray[np.float64]
 
 STORED = ("kinetic", "elastic", "gravity", "contact", "bristle")
 SPENT = ("damping_loss", "contact_damping_loss", "friction_loss")
@@ -43,26 +38,27 @@ class EnergyLedger:
     _first: float = 0.0
     _friction_work: float = 0.0
     _bristle_first: float = 0.0
-    _powers: Array = field(default_factory=lambda: np.zeros(4))
-    _last: Array = field(default_factory=lambda: np.zeros(len(STORED)))
+    _offset: float = 0.0
+    _powers: tuple[float, ...] = (0.0,) * 4
+    _last: tuple[float, ...] = (0.0,) * len(STORED)
 
     def __post_init__(self) -> None:
         self.totals = dict.fromkeys(energy_names(self.model), 0.0)
 
-    def start(self, q: Array, v: Array, a: Array, forces: Forces) -> None:
+    def start(self, forces: Forces) -> None:
         """Take the state at the beginning."""
-        self._store(q, v, forces)
+        self._store(forces)
         self._first = self._stored_sum()
         self._bristle_first = forces.bristle
-        self._powers = self._power(v, a, forces)
+        self._powers = self._power(forces)
         self._last = self._stored()
 
-    def step(self, h: float, q: Array, v: Array, a: Array, forces: Forces) -> None:
-        """Add the step of length `h` [s] that ended in this state."""
-        powers = self._power(v, a, forces)
-        damping, contact, friction, drive = 0.5 * h * (powers + self._powers)
+    def step(self, h: float, forces: Forces) -> None:
+        """Add the step of length `h` [s] that ended with these forces."""
+        powers = self._power(forces)
+        damping, contact, friction, drive = (0.5 * h * (x + y) for x, y in zip(powers, self._powers, strict=True))
         self._powers = powers
-        self._store(q, v, forces)
+        self._store(forces)
         self.totals["damping_loss"] += damping
         self.totals["contact_damping_loss"] += contact
         self._friction_work += friction
@@ -72,9 +68,13 @@ class EnergyLedger:
             self.totals[SECTION_LAW] += law
         self.totals["drive_work"] += drive
         stored = self._stored()
-        exchanged = 0.5 * float(np.abs(stored - self._last).sum())
+        exchanged = 0.5 * sum(abs(x - y) for x, y in zip(stored, self._last, strict=True))
         self._last = stored
         self.throughput += max(abs(drive), exchanged, abs(damping) + abs(contact) + abs(friction) + abs(law))
+
+    def shift(self, forces: Forces, potential: float) -> None:
+        """A rotation vector went to its other branch, where constant moments have the potential `potential` [J]."""
+        self._offset += forces.potential - potential
 
     @property
     def balance_error(self) -> float:
@@ -83,24 +83,19 @@ class EnergyLedger:
         error = self._stored_sum() - self._first + lost - self.totals["drive_work"]
         return error / self.throughput if self.throughput > 0 else 0.0
 
-    def _store(self, q: Array, v: Array, forces: Forces) -> None:
-        model = self.model
-        load = 0.0 if model.load is None else float(np.sum(model.load * q))
-        self.totals["kinetic"] = 0.5 * float(np.sum(v * model.inertia(v)))
+    def _store(self, forces: Forces) -> None:
+        self.totals["kinetic"] = forces.kinetic
         self.totals["elastic"] = forces.elastic
-        self.totals["gravity"] = model.potential(q) - load
+        self.totals["gravity"] = forces.potential + self._offset
         self.totals["contact"] = forces.penalty
         self.totals["bristle"] = forces.bristle
 
-    def _power(self, v: Array, a: Array, forces: Forces) -> Array:
-        model = self.model
-        held = ~model.free
-        reaction = (forces.F + model.inertia(a))[held]
-        drive = float(np.sum(reaction * v[held])) + forces.surface_power
-        return np.array([forces.damping_power, forces.contact_damping_power, forces.friction_power, drive])
+    def _power(self, forces: Forces) -> tuple[float, float, float, float]:
+        drive = forces.held_power + forces.surface_power
+        return forces.damping_power, forces.contact_damping_power, forces.friction_power, drive
 
-    def _stored(self) -> Array:
-        return np.array([self.totals[name] for name in STORED])
+    def _stored(self) -> tuple[float, ...]:
+        return tuple(self.totals[name] for name in STORED)
 
     def _stored_sum(self) -> float:
-        return float(self._stored().sum())
+        return sum(self._stored())

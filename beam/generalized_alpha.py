@@ -1,29 +1,53 @@
-r"""Time integration of M a + F(q, v, t) = 0 by the generalised-alpha method with modified Newton iteration.
+r"""Time integration of M(q) a + F(q, v, t) = 0 by the generalised-alpha method with modified Newton iteration.
 
 .. math:: M[(1-\alpha_m) a_{n+1} + \alpha_m a_n] + (1-\alpha_f) F_{n+1} + \alpha_f F_n = 0, \\
           \alpha_m = \frac{2\rho - 1}{\rho + 1}, \quad \alpha_f = \frac{\rho}{\rho + 1}, \quad
-          \gamma = \tfrac12 - \alpha_m + \alpha_f, \quad \beta = \tfrac14 (1 - \alpha_m + \alpha_f)^2.
+          \gamma = \tfrac12 - \alpha_m + \alpha_f, \quad \beta = \tfrac14 (1 - \alpha_m + \alpha_f)^2,
 
-Second order, unconditionally stable for linear problems, spectral radius rho at infinite frequency. The factorised
-matrix is kept over steps and renewed where the residual falls by less than a factor of two in an iteration. A step that
-does not converge is halved, never accepted. Steps are h_max / 2^k on a dyadic grid, so that output times are met exactly
-and a run can be repeated bit by bit.
+written for M(q) as in :mod:`beam.newton_step`. Second order, unconditionally stable for linear problems, spectral radius rho
+at infinite frequency. The factorised matrix is kept over steps and renewed where the residual falls by less than a factor of
+two in an iteration. A step that does not converge is halved, never accepted. Steps are h_max / 2^k on a dyadic grid, so that
+output times are met exactly and a run can be repeated bit by bit.
 
-Source: J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371-375, doi 10.1115/1.2900803.
+Every step estimates its own error in position, from the difference between the method and the third term of Taylor's series,
+
+.. math:: e = h^2 |\beta - \tfrac16|\; \max_{nodes} |w_{n+1} - w_n| .
+
+Its largest value and its sum, a bound for the error of the whole run where nothing amplifies it, are kept; with
+:attr:`StepSettings.error` a step whose own error is larger is halved.
+
+Sources: J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371-375, doi 10.1115/1.2900803;
+O. C. Zienkiewicz, Y. M. Xie, Earthq. Eng. Struct. Dyn. 20 (1991) 871-887, doi 10.1002/eqe.4290200907 (the estimate).
 """
 
 from __future__ import annotations
 
+import copy
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beam.energy_ledger import EnergyLedger
 from beam.linear_solve import Factor
+from beam.newton_step import (
+    CONVERGED,
+    NOT_FINITE,
+    TOTALS,
+    ContactArrays,
+    MatrixArrays,
+    Rule,
+    StateArrays,
+    correct,
+    newton_step,
+    predict,
+    residual_size,
+)
 from beam.rod_model import Blocks, Forces, RodModel
+from beam.rotation_vector import turn_back
 from beam.section_memory import LONG, SectionMemory
 from beam.status import Outcome, Status
 from geometry.errors import SpecError
@@ -38,15 +62,20 @@ LEVELS = 14
 
 @dataclass(frozen=True)
 class StepSettings:
-    """Largest step [s], spectral radius, stopping rule |R| <= relative |R_0| + absolute [N, N m], iterations a step."""
+    """Largest step [s], spectral radius, stopping rule |R| <= relative |R_0| + absolute [N, N m], iterations a step, largest
+    own error of a step [m].
+
+    `absolute` is 3e-6 of the sum of the sizes of the constant nodal forces if not given, and at least 1e-3 N.
+    """
 
     largest_step: float = 5e-3
     first_level: int = 4
     spectral_radius: float = 0.7
     relative: float = 1e-6
-    absolute: float = 1e-3
+    absolute: float | None = None
     iterations: int = 16
     adaptive: bool = True
+    error: float = np.inf
 
     def __post_init__(self) -> None:
         if not (self.largest_step > 0 and 0 <= self.spectral_radius <= 1 and 0 <= self.first_level <= LEVELS):
@@ -61,6 +90,13 @@ class StepSettings:
         rho = self.spectral_radius
         am, af = (2 * rho - 1) / (rho + 1), rho / (rho + 1)
         return am, af, 0.5 - am + af, 0.25 * (1 - am + af) ** 2
+
+
+KEPT = (
+    "_state", "t", "counters", "outcome", "_anchors", "_anchors_before", "memory", "deepest", "step_error", "error_sum",
+    "_last_iterations", "_worst", "_ticks", "_level", "_easy", "_matrix", "_known", "_factor_step", "_factor", "_held_force",
+)  # fmt: skip
+"""What a run consists of besides its model and settings."""
 
 
 @dataclass
@@ -86,6 +122,15 @@ class Integrator:
     memory : SectionMemory, optional
         Of the model's section law, from there as well; if not given, the rod is taken from the stress-free shape to `q`
         and left there for a long time. A step that is not accepted leaves it as it was.
+
+    Attributes
+    ----------
+    q, v, a : (n + 1, 12) array
+        Present state; `a` is the acceleration that is in balance with the forces.
+    step_error : (m, str)
+        Largest own error of a step in position, and the node and time of it.
+    error_sum : float
+        Sum of the own errors of all steps [m].
     """
 
     def __init__(
@@ -99,38 +144,108 @@ class Integrator:
     ) -> None:
         self.model = model
         self.settings = settings or StepSettings()
-        self.q = np.array(q, dtype=float)
-        self.v = np.zeros_like(self.q) if v is None else np.array(v, dtype=float)
-        self.a = np.zeros_like(self.q)
+        zero = np.zeros_like(model.q0)
+        start = (model.rod.columns(q), zero if v is None else model.rod.columns(v), zero, zero)
+        self._state = StateArrays(*(np.array(x, dtype=float, order="C") for x in start))
+        self._trial = StateArrays(*(np.zeros_like(x) for x in self._state))
         self.t = 0.0
         self.counters = Counters()
         self.outcome = Outcome()
+        turn_back(*self._state)
         model.prescribe(0.0, self.q, self.v, self.a)
-        start = anchors
-        if start is None:
-            start = model.forces(0.0, self.q, self.v, model.fresh_anchors(), friction=False).moved
-        self.anchors = [x.copy() for x in start]
-        self.forces = model.forces(
-            0.0, self.q, self.v, self.anchors, memory=memory, dt=LONG if memory is None else None
-        )
-        self.memory = self.forces.memory
+        if anchors is None:
+            anchors = model.forces(0.0, self.q, self.v, model.fresh_anchors(), friction=False).moved
+        self._anchors = self._anchors_before = model.join(anchors)
+        self.memory = memory
         self.deepest: tuple[float, str] = (0.0, "")
+        self.step_error: tuple[float, str] = (0.0, "")
+        self.error_sum = 0.0
         self._last_iterations = 0
         self._worst = ""
-        self._held = np.nonzero(~model.free)
-        self._factor: Factor | None = None
-        self._factor_step = 0.0
         self._ticks = 0
         self._level = self.settings.first_level if self.settings.adaptive else 0
         self._easy = 0
+        size = 3e-6 * float(np.linalg.norm(model.external[:, 0:3], axis=1).sum())
+        given = self.settings.absolute
+        self._absolute = max(1e-3, size) if given is None else given
+        self._make_room()
         self._initial_acceleration()
         self.ledger = EnergyLedger(model)
-        self.ledger.start(self.q, self.v, self.a, self.forces)
+        self.ledger.start(self.forces)
+
+    def _make_room(self) -> None:
+        model, nodes, dof = self.model, self.model.rod.nodes, self.model.rod.dof
+        blocks = Blocks.zeros(nodes, dof)
+        self._matrix = MatrixArrays(blocks.D, blocks.U, blocks.L, np.zeros((nodes, dof), dtype=np.int64))
+        self._known, self._factor_step = False, 0.0
+        self._factor: Factor | None = None
+        self._F, self._R = np.zeros((nodes, dof)), np.zeros((nodes, dof))
+        self._S, self._totals = np.zeros_like(model.rod.E0), np.zeros(TOTALS)
+        self._moved, self._cone = np.empty_like(self._anchors), np.zeros(len(self._anchors))
+        self._reports, self._nodal = np.zeros((len(model.surfaces), 7)), np.zeros((nodes, 3))
+
+    def checkpoint(self) -> dict[str, Any]:
+        """Everything that the rest of the run depends on, as arrays and plain values; see :mod:`beam.checkpoint`."""
+        kept = {name: copy.deepcopy(getattr(self, name)) for name in KEPT}
+        kept["ledger"] = {name: copy.deepcopy(x) for name, x in vars(self.ledger).items() if name != "model"}
+        kept["forces"] = copy.deepcopy(self._forces)
+        return kept
+
+    def restore(self, kept: dict[str, Any]) -> None:
+        """Go back to a :meth:`checkpoint` of a run of the same model with the same settings.
+
+        Raises
+        ------
+        SpecError
+            If it belongs to a rod of another size.
+        """
+        if kept["_state"].q.shape != self.q.shape or kept["_anchors"].shape != self._anchors.shape:
+            raise SpecError(
+                f"the checkpoint is of a rod with {len(kept['_state'].q)} nodes and {len(kept['_anchors'])} contact points; "
+                f"this one has {len(self.q)} and {len(self._anchors)}."
+            )
+        for name in KEPT:
+            setattr(self, name, copy.deepcopy(kept[name]))
+        for name, value in kept["ledger"].items():
+            setattr(self.ledger, name, copy.deepcopy(value))
+        self._forces = copy.deepcopy(kept["forces"])
+
+    @property
+    def q(self) -> Array:
+        """Positions and rotations."""
+        return self._state.q
+
+    @property
+    def v(self) -> Array:
+        """Velocities."""
+        return self._state.v
+
+    @property
+    def a(self) -> Array:
+        """Accelerations."""
+        return self._state.w
+
+    @property
+    def anchors(self) -> list[Array]:
+        """Friction anchors, one array (n, points, 3) per surface."""
+        return self.model.split(self._anchors)
+
+    @property
+    def forces(self) -> Forces:
+        """Everything about the forces of the present state, inertia contained; worked out when it is asked for."""
+        if self._forces is None:
+            self._forces = self.model.forces(
+                self.t, self.q, self.v, self.model.split(self._anchors_before), a=self.a
+            )  # fmt: skip
+        return self._forces
 
     @property
     def reaction(self) -> Array:
         """Force of the supports on the held unknowns, zero elsewhere, shape (n + 1, 12) [N, N m]."""
-        return np.where(self.model.free, 0.0, self.forces.F + self.model.inertia(self.a))
+        out = np.zeros_like(self._F)
+        i, k = self.model.held.T
+        out[i, k] = self._held_force
+        return out
 
     def advance(self, steps: int, watch: Callable[[Integrator], None] | None = None) -> bool:
         """Go on by `steps` times the largest step; False if the run had to stop, see :attr:`outcome`."""
@@ -156,102 +271,168 @@ class Integrator:
     def _try(self, size: int) -> bool:
         h = self.settings.largest_step * size / 2**LEVELS
         t = (self._ticks + size) * self.settings.largest_step / 2**LEVELS
-        accepted = self._newton(t, h)
-        if accepted is None:
-            if not self.outcome.completed:
-                return False
-            self.counters.cuts += 1
-            self._easy = 0
-            self._factor = None
-            self._level = LEVELS - int(np.log2(size)) + 1
-            if self._level > LEVELS:
-                self.outcome = Outcome(Status.NOT_CONVERGED, f"{self._worst} at t = {self.t:.4f} s, step {h:.1e} s.")
+        am, af, gamma, beta = self.settings.coefficients
+        one = self.settings
+        rule = Rule(am, af, gamma, beta, h, one.relative, self._absolute, one.iterations)
+        forces = self._compiled_step(t, rule) if self.model.law is None else self._step_with_law(t, rule)
+        error, node = self._own_error(h, beta) if forces is not None else (0.0, 0)
+        if forces is None or error > one.error:
+            if forces is not None:
+                self._worst = f"The error of a step is largest at node {node}, {error:.1e} m,"
+            self._cut(size, h)
             return False
-        q, v, a, forces = accepted
-        fault = self.model.rotation_fault(q)
-        if fault:
-            self.outcome = Outcome(Status.ROTATION_TOO_LARGE, f"{fault} Time {t:.4f} s.")
-            return False
-        self.q, self.v, self.a, self.t, self.forces = q, v, a, t, forces
-        self.anchors, self.memory = forces.moved, forces.memory
-        self._ticks += size
-        self.counters.steps += 1
-        if forces.penetration > self.deepest[0]:
-            self.deepest = (forces.penetration, f"{forces.penetration_at}, t = {t:.3f} s")
-        self.ledger.step(h, q, v, a, forces)
+        self._accept(t, size, forces)
+        self.error_sum += error
+        if error > self.step_error[0]:
+            self.step_error = (error, f"node {node}, t = {t:.3f} s")
+        self.ledger.step(h, forces)
         return True
 
-    def _newton(self, t: float, h: float) -> tuple[Array, Array, Array, Forces] | None:
-        am, af, gamma, beta = self.settings.coefficients
+    def _own_error(self, h: float, beta: float) -> tuple[float, int]:
+        change = self._trial.w[:, 0:3] - self._state.w[:, 0:3]
+        squares = np.einsum("ij,ij->i", change, change)
+        node = int(squares.argmax())
+        return h * h * abs(beta - 1 / 6) * float(np.sqrt(squares[node])), node
+
+    def _cut(self, size: int, h: float) -> None:
+        if not self.outcome.completed:
+            return
+        self.counters.cuts += 1
+        self._easy = 0
+        self._known, self._factor = False, None
+        self._level = LEVELS - int(np.log2(size)) + 1
+        if self._level > LEVELS:
+            self.outcome = Outcome(Status.NOT_CONVERGED, f"{self._worst} at t = {self.t:.4f} s, step {h:.1e} s.")
+
+    def _accept(self, t: float, size: int, forces: Forces) -> None:
+        self._state, self._trial = self._trial, self._state
+        self.t = t
+        self._forces = None
+        if self.model.law is not None:
+            self._forces, self.memory = forces, forces.memory
+        i, k = self.model.held.T
+        self._held_force = forces.F[i, k]
+        self._anchors_before, self._anchors = self._anchors, self.model.join(forces.moved)
+        self._ticks += size
+        self.counters.steps += 1
+        if turn_back(*self._state):
+            self._known, self._factor = False, None
+            if self.model.load is not None:
+                self.ledger.shift(forces, -float(np.vdot(self.model.external, self._state.q)))
+        if forces.penetration > self.deepest[0]:
+            self.deepest = (forces.penetration, f"{forces.penetration_at}, t = {t:.3f} s")
+
+    def _compiled_step(self, t: float, rule: Rule) -> Forces | None:
         model = self.model
-        a = self.a.copy()
-        q = self.q + h * self.v + 0.5 * h * h * a
-        v = self.v + h * a
-        model.prescribe(t, q, v, a)
-        old = model.inertia(am * self.a) + af * self.forces.F
+        contact = ContactArrays(
+            model.surface_parameters(t), model.first, model.xs, model.ws, self._anchors, self._moved, self._reports,
+            self._nodal, self._cone,
+        )  # fmt: skip
+        code, iterations, factored, self._known = newton_step(
+            model.arrays, contact, model.external, model.held, model.held_values(t), self._state, self._trial,
+            self._matrix, self._known and self._factor_step == rule.h, rule, self._F, self._S, self._R, self._totals,
+        )  # fmt: skip
+        self._factor_step = rule.h
+        self.counters.iterations += iterations
+        self.counters.factorisations += factored
+        self._last_iterations = iterations
+        if code != CONVERGED:
+            self._failed(code, t)
+            return None
+        elastic, damping, kinetic, power, potential = self._totals.tolist()
+        out = Forces(
+            self._F, self._S, [self._moved], self._nodal, self._nodal, [], elastic=elastic, kinetic=kinetic,
+            potential=potential, damping_power=damping, held_power=power,
+        )  # fmt: skip
+        model.add_reports(out, self._reports)
+        return out
+
+    def _step_with_law(self, t: float, rule: Rule) -> Forces | None:
+        """The same iteration as :func:`beam.newton_step.newton_step`, for a section law that is Python."""
+        model, new = self.model, self._trial
+        predict(self._state, new, rule)
+        model.prescribe(t, new.q, new.v, new.w)
         start = last = np.inf
         fresh = 0
-        for k in range(self.settings.iterations):
-            forces = model.forces(t, q, v, self.anchors, memory=self.memory, dt=h)
-            residual = model.inertia((1 - am) * a)
-            residual += (1 - af) * forces.F
-            residual += old
-            residual[self._held] = 0.0
-            size = float(np.sqrt(np.vdot(residual, residual)))
+        for k in range(rule.iterations):
+            forces = model.forces(
+                t, new.q, new.v, self.anchors, memory=self.memory, dt=rule.h, a=new.w
+            )  # fmt: skip
+            size = (1 - rule.af) * residual_size(forces.F, model.held, self._R)
             self.counters.iterations += 1
             if not np.isfinite(size):
-                self._not_finite(residual, t)
+                self._failed(NOT_FINITE, t)
                 return None
             start = size if k == 0 else start
-            if size <= self.settings.relative * start + self.settings.absolute:
+            if size <= rule.relative * start + rule.absolute:
                 self._last_iterations = k + 1
-                return q, v, a, forces
+                return forces
             if size > 1e6 * max(start, 1.0):
                 break
-            stale = self._factor is None or self._factor_step != h or (size > 0.5 * last and k - fresh >= 2)
-            if stale:
+            if self._factor is None or self._factor_step != rule.h or (size > 0.5 * last and k - fresh >= 2):
                 fresh = k
-                self._refresh(t, h, q, v)
+                self._renew(t, rule)
                 if self._factor is None:
                     break
             last = size
-            assert self._factor is not None
-            delta = self._factor.solve(residual)
-            q -= delta
-            v -= gamma / (beta * h) * delta
-            a -= delta / (beta * h * h)
-        self._worst = self._worst_node(residual)
+            correct(new, self._factor.solve(self._R), rule)
+        self._failed(-1, t)
         return None
 
-    def _refresh(self, t: float, h: float, q: Array, v: Array) -> None:
-        am, af, gamma, beta = self.settings.coefficients
-        blocks = Blocks.zeros(self.model.rod.nodes)
-        self.model.forces(t, q, v, self.anchors, blocks=blocks, factor=gamma / (beta * h), memory=self.memory, dt=h)
-        for part in (blocks.D, blocks.U, blocks.L):
-            part *= 1 - af
-        self.model.add_mass((1 - am) / (beta * h * h), blocks)
-        self.model.fix(blocks)
+    def _renew(self, t: float, rule: Rule) -> None:
+        model, new = self.model, self._trial
+        blocks = Blocks.zeros(model.rod.nodes, model.rod.dof)
+        speed = rule.gamma / (rule.beta * rule.h)
+        acceleration = (1 - rule.am) / ((1 - rule.af) * rule.beta * rule.h**2)
+        model.forces(
+            t, new.q, new.v, self.anchors, blocks=blocks, factor=speed, memory=self.memory, dt=rule.h, a=new.w,
+            factor_a=acceleration,
+        )  # fmt: skip
+        model.fix(blocks)
         factor = Factor(blocks)
         self._factor = factor if factor.singular_node < 0 else None
-        self._factor_step = h
+        self._factor_step = rule.h
         self.counters.factorisations += 1
 
     def _initial_acceleration(self) -> None:
-        model = self.model
-        blocks = Blocks.zeros(model.rod.nodes)
-        model.add_mass(1.0, blocks)
-        model.fix(blocks)
-        right = -self.forces.F - model.inertia(self.a)
-        right = np.where(model.free, right, 0.0)
-        self.a = np.where(model.free, Factor(blocks).solve(right), self.a)
+        """M(q) a = -F by Newton's method, which meets a mass matrix that turns with the section after one step."""
+        model, state = self.model, self._state
+        given = LONG if self.memory is None else None
+        for _ in range(3):
+            blocks = Blocks.zeros(model.rod.nodes, model.rod.dof)
+            self._forces = model.forces(
+                0.0, state.q, state.v, self.anchors, memory=self.memory, dt=given, a=state.w, blocks=blocks, factor_a=1e9
+            )  # fmt: skip
+            for part in (blocks.D, blocks.U, blocks.L):
+                part /= 1e9
+            model.fix(blocks)
+            state.w[:] -= np.where(model.free, Factor(blocks).solve(np.where(model.free, self._forces.F, 0.0)), 0.0)
+        state.a[:] = state.w
+        self._forces = model.forces(
+            0.0, state.q, state.v, self.anchors, memory=self.memory, dt=given, a=state.w
+        )  # fmt: skip
+        self.memory = self._forces.memory
+        i, k = model.held.T
+        self._held_force = self._forces.F[i, k]
 
-    def _not_finite(self, residual: Array, t: float) -> None:
-        node = int(np.argwhere(~np.isfinite(residual))[0, 0])
-        self.outcome = Outcome(
-            Status.NOT_FINITE, f"It appeared at node {node} in the step to t = {t:.4f} s; the state before it is kept."
-        )
+    def _failed(self, code: int, t: float) -> None:
+        R = self._R
+        if code == NOT_FINITE:
+            broken = np.argwhere(~np.isfinite(R))
+            node = int(broken[0, 0]) if len(broken) else 0
+            detail = f"It appeared at node {node} in the step to t = {t:.4f} s; the state before it is kept."
+            self.outcome = Outcome(Status.NOT_FINITE, detail)
+            return
+        node = int(np.argmax(np.abs(R[:, 0:3]).max(axis=1)))
+        worst = float(np.abs(R[node, 0:3]).max())
+        self._worst = f"The residual is largest at node {node}{self._touching(node)}, {worst:.2e} N,"
 
-    def _worst_node(self, residual: Array) -> str:
-        node = int(np.argmax(np.abs(residual[:, 0:3]).max(axis=1)))
-        worst = float(np.abs(residual[node, 0:3]).max())
-        return f"The residual is largest at node {node}, {worst:.2e} N"
+    def _touching(self, node: int) -> str:
+        """Which surfaces the elements of a node touched in the last iteration."""
+        if self.model.law is not None:
+            return ""
+        names = []
+        for surface, moved in zip(self.model.surfaces, self.model.split(self._moved), strict=True):
+            if surface.law.friction > 0 and np.isfinite(moved[max(node - 1, 0) : node + 1, :, 0]).any():
+                names.append(surface.name)
+        return f" (on {' and '.join(names)})" if names else ""

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.block_tridiagonal import factor_chain, solve_chain
-from beam.element import DOF
+from beam.block_tridiagonal import invert_chain, sweep_chain
 from beam.rod_model import Blocks
 
 Array = NDArray[np.float64]
@@ -23,11 +22,11 @@ class Factor:
 
     def __init__(self, blocks: Blocks) -> None:
         self._blocks = blocks
-        self._pivots = np.empty((blocks.D.shape[0], DOF), dtype=np.int64)
-        self.singular_node = int(factor_chain(blocks.D, blocks.U, blocks.L, self._pivots))
+        self._pivots = np.empty((blocks.D.shape[0], blocks.D.shape[1]), dtype=np.int64)
+        self.singular_node = int(invert_chain(blocks.D, blocks.U, blocks.L, self._pivots))
 
     def solve(self, right: Array) -> Array:
-        """Solution for `right` (n, 12)."""
+        """Solution for `right` (n, dof)."""
         B = np.array(right, dtype=float, order="C")
-        solve_chain(self._blocks.D, self._blocks.U, self._blocks.L, self._pivots, B)
+        sweep_chain(self._blocks.D, self._blocks.U, self._blocks.L, B)
         return B

@@ -9,6 +9,7 @@ and u = V (t - t_0 - T/2) once the ramp is over.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,3 +50,31 @@ class SpeedRamp:
         a = (6 * x - 6 * x**2) / T
         along = self.ratio * self.speed * np.array(self.direction)
         return u * along, v * along, a * along
+
+
+@dataclass(frozen=True)
+class Turn:
+    """Prescribed turning of a section about a fixed `axis`: `angle` gives (angle, speed, acceleration) at a time [s].
+
+    The rotation vector is taken to the branch within half a turn, so that there may be many turns.
+
+    Examples
+    --------
+    >>> turn = Turn(lambda t: (2 * t, 2.0, 0.0))
+    >>> [round(float(x[2]), 6) for x in turn(3.0)]
+    [-0.283185, 2.0, 0.0]
+    """
+
+    angle: Callable[[float], tuple[float, float, float]]
+    axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
+
+    def __post_init__(self) -> None:
+        if not abs(float(np.linalg.norm(self.axis)) - 1.0) < 1e-9:
+            raise SpecError(f"the axis of a turn must have length one, found {self.axis}.")
+
+    def __call__(self, t: float) -> tuple[Array, Array, Array]:
+        """Rotation vector, its velocity and acceleration at time `t`, each (3,)."""
+        angle, speed, acceleration = self.angle(t)
+        axis = np.array(self.axis)
+        within = float(np.arctan2(np.sin(angle), np.cos(angle)))
+        return within * axis, speed * axis, acceleration * axis

@@ -1,4 +1,4 @@
-"""A rod with its loads, supports and contacts: the equations M a + F(q, v, t) = 0 that statics and dynamics solve."""
+"""A rod with its loads, supports and contacts: the equations M(q) a + F(q, v, t) = 0 that statics and dynamics solve."""
 
 from __future__ import annotations
 
@@ -8,11 +8,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from beam.contact_force import contact_force
-from beam.element import DOF, add_mass, inertia_force, internal_force, internal_tangent
+from beam.contact_force import PARAMETERS, contact_forces
+from beam.element import DOF, UNIT_MASS, unit_shapes
+from beam.element_choice import add_mass, internal_force, internal_tangent, kinetic_energy
 from beam.hermite import gauss_points
+from beam.motion import Turn
+from beam.newton_step import RodArrays, fix_blocks
 from beam.rod import GAUSS_W, GAUSS_X, Rod
-from beam.rotation_vector import LARGEST_ROTATION
 from beam.section_law import SectionLaw
 from beam.section_memory import (
     LONG,
@@ -27,24 +29,18 @@ from geometry.errors import SpecError
 
 Array = NDArray[np.float64]
 
-FIELDS = {
-    "r": slice(0, 3),
-    "x": slice(0, 1),
-    "y": slice(1, 2),
-    "z": slice(2, 3),
-    "r'": slice(3, 6),
-    "theta": slice(6, 9),
-    "theta'": slice(9, 12),
-}
-
 
 @dataclass(frozen=True)
 class Support:
-    """Node (negative: from the end) whose fields are held at their starting values; `travel` moves its position."""
+    """Node (negative: from the end) whose fields are held at their starting values.
+
+    `travel` moves its position, `turn` its section about a fixed axis, from theta = 0 at the start.
+    """
 
     node: int
     held: tuple[str, ...] = ("r", "theta")
     travel: Travel | None = None
+    turn: Turn | None = None
 
 
 @dataclass
@@ -61,7 +57,10 @@ class Forces:
     friction: Array
     cones: list[Array]
     elastic: float = 0.0
+    kinetic: float = 0.0
+    potential: float = 0.0
     damping_power: float = 0.0
+    held_power: float = 0.0
     penalty: float = 0.0
     bristle: float = 0.0
     contact_damping_power: float = 0.0
@@ -75,16 +74,16 @@ class Forces:
 
 @dataclass
 class Blocks:
-    """Block-tridiagonal matrix: `D` (n, 12, 12), `U` and `L` (n - 1, 12, 12)."""
+    """Block-tridiagonal matrix: `D` (n, dof, dof), `U` and `L` (n - 1, dof, dof)."""
 
     D: Array
     U: Array
     L: Array
 
     @classmethod
-    def zeros(cls, nodes: int) -> Blocks:
+    def zeros(cls, nodes: int, dof: int = DOF) -> Blocks:
         """Empty matrix of `nodes` block rows."""
-        shape = (DOF, DOF)
+        shape = (dof, dof)
         return cls(np.zeros((nodes, *shape)), np.zeros((nodes - 1, *shape)), np.zeros((nodes - 1, *shape)))
 
 
@@ -94,9 +93,9 @@ class RodModel:
 
     Parameters
     ----------
-    rod : Rod
+    rod : Rod or AncfCable
     q0 : (n + 1, 12) array
-        Starting shape; held fields keep its values.
+        Starting shape; held fields keep its values. Of the ANCF cable also its part (n + 1, 6), which is what is kept.
     supports : sequence of Support
     gravity : (3,) array_like
         Acceleration [m/s^2].
@@ -119,17 +118,41 @@ class RodModel:
 
     def __post_init__(self) -> None:
         shape = (self.rod.nodes, DOF)
+        if self.law is not None and self.rod.dof != DOF:
+            raise SpecError("a section law with internal state needs the rod, whose section can twist and shear.")
+        if self.q0.shape[1:] == (DOF,):
+            self.q0 = self.rod.columns(self.q0)
+        if self.load is not None and self.load.shape[1:] == (DOF,):
+            self.load = self.rod.load_columns(self.load)
+        shape = (self.rod.nodes, self.rod.dof)
         if self.q0.shape != shape or (self.load is not None and self.load.shape != shape):
             raise SpecError(f"the starting shape and the load of a rod with {shape[0]} nodes must have shape {shape}.")
         self.free = np.ones(shape, dtype=bool)
         for support in self.supports:
             for name in support.held:
-                self.free[support.node, FIELDS[name]] = False
+                self.free[support.node, self.rod.slots(name, self.q0[support.node])] = False
         self.weight = self.rod.weight(np.asarray(self.gravity, dtype=float))
+        if self.rod.dof != DOF and any(support.turn is not None for support in self.supports):
+            raise SpecError(
+                "a section of an ANCF cable cannot be turned by a support, it has no rotations: take the rod."
+            )
         self._external = self.weight if self.load is None else self.weight + self.load
-        self._masses = self.rod.masses
-        self._points = [gauss_points(s.points) for s in self.surfaces]
-        self._empty = Blocks.zeros(2)
+        self.held = np.argwhere(~self.free)
+        rod = self.rod
+        self.arrays = RodArrays(
+            rod.lengths, GAUSS_X, GAUSS_W, unit_shapes(GAUSS_X), rod.C, rod.C_damping, bool(rod.C_damping.any()),
+            rod.E0, float(rod.mass_per_length), rod.J, UNIT_MASS,
+        )  # fmt: skip
+        points = [gauss_points(s.points) for s in self.surfaces]
+        self.first = np.concatenate([[0], np.cumsum([s.points for s in self.surfaces])]).astype(np.int64)
+        self.xs = np.concatenate([np.empty(0), *(x for x, _ in points)])
+        self.ws = np.concatenate([np.empty(0), *(w for _, w in points)])
+        self._empty = Blocks.zeros(2, self.rod.dof)
+
+    @property
+    def external(self) -> Array:
+        """Constant nodal forces, weight and load, (n + 1, 12)."""
+        return self._external
 
     def fresh_anchors(self) -> list[Array]:
         """Friction anchors before any contact, one array (n, points, 3) per surface."""
@@ -143,52 +166,95 @@ class RodModel:
 
     def prescribe(self, t: float, q: Array, v: Array, a: Array) -> None:
         """Set held fields to their prescribed values at time `t`, in place."""
-        held = ~self.free
-        q[held], v[held], a[held] = self.q0[held], 0.0, 0.0
-        for support in self.supports:
-            if support.travel is not None:
-                u, du, ddu = support.travel(t)
-                q[support.node, 0:3] = self.q0[support.node, 0:3] + u
-                v[support.node, 0:3], a[support.node, 0:3] = du, ddu
+        i, k = self.held.T
+        q[i, k], v[i, k], a[i, k] = self.held_values(t).T
+
+    def held_values(self, t: float) -> Array:
+        """Position, velocity and acceleration of the unknowns `held` (k, 2) at time `t`, (k, 3)."""
+        if not hasattr(self, "_at_rest"):
+            self._at_rest = np.zeros((len(self.held), 3))
+            self._at_rest[:, 0] = self.q0[tuple(self.held.T)]
+            row = {(int(i), int(k)): j for j, (i, k) in enumerate(self.held)}
+            self._driven = []
+            for support in self.supports:
+                node = support.node % self.rod.nodes
+                for motion, slot in ((support.travel, 0), (support.turn, 6)):
+                    rows = [(row[node, slot + k], k) for k in range(3) if (node, slot + k) in row]
+                    if motion is not None and rows:
+                        here, axes = np.array(rows).T
+                        self._driven.append((motion, here, axes))
+        values = self._at_rest.copy()
+        for motion, here, axes in self._driven:
+            u, du, ddu = motion(t)
+            values[here, 0] += u[axes]
+            values[here, 1] = du[axes]
+            values[here, 2] = ddu[axes]
+        return values
+
+    def surface_parameters(self, t: float, friction: bool = True) -> Array:
+        """What the contact kernel reads of the surfaces at time `t`, (surfaces, 23)."""
+        P = np.empty((len(self.surfaces), PARAMETERS))
+        for row, surface in zip(P, self.surfaces, strict=True):
+            row[:] = surface.parameters(t)
+        if not friction:
+            P[:, 3] = 0.0
+        return P
+
+    def join(self, anchors: list[Array]) -> Array:
+        """Anchors of all surfaces one after the other, (n points, 3)."""
+        return np.concatenate([np.empty((0, 3)), *(x.reshape(-1, 3) for x in anchors)])
+
+    def split(self, joined: Array) -> list[Array]:
+        """The opposite of :meth:`join`, as views; also of arrays (n points,)."""
+        n = self.rod.lengths.size
+        pairs = zip(self.first[:-1], self.first[1:], strict=True)
+        return [joined[n * i : n * j].reshape(n, j - i, *joined.shape[1:]) for i, j in pairs]
 
     def forces(
         self, t: float, q: Array, v: Array, anchors: list[Array], friction: bool = True,
         blocks: Blocks | None = None, factor: float = 0.0,
         memory: SectionMemory | None = None, dt: float | None = LONG,
+        a: Array | None = None, factor_a: float = 0.0,
     ) -> Forces:  # fmt: skip
-        """F(q, v, t); with `blocks`, also dF/dq + factor dF/dv into them.
+        """F(q, v, t), with the accelerations `a` M(q) a + F; with `blocks`, also its dF/dq + factor dF/dv + factor_a dF/da.
 
         A section law goes in the time `dt` [s] from `memory` (fresh if not given) to the strains of `q`; with None, the
         forces that it has in `memory` are taken as they are.
         """
-        rod = self.rod
-        nodes, n = rod.nodes, rod.lengths.size
+        rod, nodes, n = self.arrays, self.rod.nodes, self.rod.lengths.size
+        joined = self.join(anchors)
+        moved, cone = np.empty_like(joined), np.zeros(len(joined))
         out = Forces(
-            -self._external, np.empty((n, GAUSS_X.size, 6)), [], np.zeros((nodes, 3)), np.zeros((nodes, 3)), []
+            -self._external, np.empty((n, GAUSS_X.size, 6)), self.split(moved), np.zeros((nodes, 3)),
+            np.zeros((nodes, 3)), self.split(cone),
+        )  # fmt: skip
+        law = (rod.C, rod.C_damping, rod.E0, rod.m, rod.J, rod.mass)
+        moving = a is not None
+        w = q if a is None else a
+        out.elastic, out.damping_power, out.kinetic = internal_force(
+            q, v, w, moving, rod.damped, rod.lengths, rod.H, rod.w, *law, out.F, out.S
         )
-        law = (rod.C, rod.C_damping, rod.E0)
-        out.elastic, out.damping_power = internal_force(q, v, rod.lengths, GAUSS_X, GAUSS_W, *law, out.F, out.S)
         matrix = self._empty
         if blocks is not None:
             matrix = blocks
             for part in (blocks.D, blocks.U, blocks.L):
                 part[:] = 0.0
-            internal_tangent(q, v, factor, rod.lengths, GAUSS_X, GAUSS_W, *law, blocks.D, blocks.U, blocks.L)
+            internal_tangent(
+                q, v, w, moving, factor, factor_a, rod.lengths, rod.x, rod.H, rod.w, *law, blocks.D, blocks.U, blocks.L
+            )
         if self.law is not None:
             self._add_law(self.law, q, blocks, memory, dt, out)
-        report = np.empty(7)
-        for surface, (xs, ws), anchor in zip(self.surfaces, self._points, anchors, strict=True):
-            p = surface.parameters(t)
-            if not friction:
-                p[3] = 0.0
-            moved, cone = np.empty_like(anchor), np.empty(anchor.shape[:2])
-            contact_force(
-                p, q, v, rod.lengths, xs, ws, anchor, moved, out.F, out.contact, out.friction, report, cone,
-                blocks is not None, factor, matrix.D, matrix.U, matrix.L,
-            )  # fmt: skip
-            self._add(out, report, surface.name)
-            out.moved.append(moved)
-            out.cones.append(cone)
+        reports = np.zeros((len(self.surfaces), 7))
+        contact_forces(
+            self.surface_parameters(t, friction), self.first, self.xs, self.ws, q, v, rod.lengths, joined, moved, out.F,
+            out.contact, out.friction, reports, cone, True, blocks is not None, factor, matrix.D, matrix.U, matrix.L,
+        )  # fmt: skip
+        self.add_reports(out, reports)
+        if moving:
+            out.kinetic += kinetic_energy(v, rod.lengths, rod.m, rod.J, rod.mass)
+        out.potential = -float(np.vdot(self._external, q))
+        i, k = self.held.T
+        out.held_power = float(out.F[i, k] @ v[i, k])
         return out
 
     def _add_law(
@@ -204,58 +270,46 @@ class RodModel:
         memory = memory or SectionMemory.fresh(law, lengths.size, GAUSS_X.size)
         step = law_step(law, memory, strains(q, lengths, GAUSS_X, self.rod.E0), dt, blocks is not None)
         S = step.memory.S
-        section_force_on_nodes(q, lengths, GAUSS_X, GAUSS_W, S, out.F)
+        section_force_on_nodes(q, lengths, self.arrays.H, GAUSS_W, S, out.F)
         out.S += S
         out.memory = step.memory
         out.law_work = float(np.sum(GAUSS_W * lengths[:, None] * step.work))
         if blocks is not None and step.T is not None:
-            section_force_tangent(q, lengths, GAUSS_X, GAUSS_W, S, step.T, blocks.D, blocks.U, blocks.L)
+            section_force_tangent(q, lengths, GAUSS_X, self.arrays.H, GAUSS_W, S, step.T, blocks.D, blocks.U, blocks.L)
 
-    @staticmethod
-    def _add(out: Forces, report: Array, name: str) -> None:
-        out.penalty += report[0]
-        out.bristle += report[1]
-        out.contact_damping_power += report[2]
-        out.friction_power += report[3]
-        out.surface_power += report[4]
-        if report[5] > out.penetration:
-            out.penetration = float(report[5])
-            out.penetration_at = f"{name}, element {int(report[6])}"
+    def add_reports(self, out: Forces, reports: Array) -> None:
+        """Energies, powers and deepest penetration of the surfaces, from the contact kernel's `reports` (surfaces, 7)."""
+        for report, surface in zip(reports.tolist(), self.surfaces, strict=True):
+            out.penalty += report[0]
+            out.bristle += report[1]
+            out.contact_damping_power += report[2]
+            out.friction_power += report[3]
+            out.surface_power += report[4]
+            if report[5] > out.penetration:
+                out.penetration = report[5]
+                out.penetration_at = f"{surface.name}, element {int(report[6])}"
 
-    def inertia(self, a: Array) -> Array:
-        """M a, shape (n + 1, 12)."""
+    def inertia(self, a: Array, q: Array | None = None, v: Array | None = None) -> Array:
+        """M(q) a with the gyroscopic moments of `v`, shape (n + 1, 12); unturned and at rest if `q` is not given."""
+        rod = self.arrays
+        if q is None:
+            q = np.zeros_like(a)
+            q[:, 3] = 1.0
+        v = np.zeros_like(a) if v is None else v
         out = np.zeros_like(a)
-        inertia_force(a, self._masses, self.rod.mass_per_length, self.rod.J, out)
+        law = (0 * rod.C, 0 * rod.C, rod.E0, rod.m, rod.J, rod.mass)
+        internal_force(q, v, a, True, False, rod.lengths, rod.H, rod.w, *law, out, np.empty_like(rod.E0))
         return out
 
     def add_mass(self, factor: float, blocks: Blocks) -> None:
-        """Add factor M to the blocks."""
-        add_mass(factor, self._masses, self.rod.mass_per_length, self.rod.J, blocks.D, blocks.U, blocks.L)
+        """Add factor M of the unturned sections to the blocks."""
+        rod = self.arrays
+        add_mass(factor, rod.lengths, rod.w, rod.H, rod.m, rod.J, rod.mass, blocks.D, blocks.U, blocks.L)
 
     def fix(self, blocks: Blocks) -> None:
         """Replace rows and columns of held unknowns by the identity."""
-        for i, slot in np.argwhere(~self.free):
-            blocks.D[i, slot, :] = 0.0
-            blocks.D[i, :, slot] = 0.0
-            blocks.D[i, slot, slot] = 1.0
-            if i > 0:
-                blocks.L[i - 1, slot, :] = 0.0
-                blocks.U[i - 1, :, slot] = 0.0
-            if i < blocks.U.shape[0]:
-                blocks.U[i, slot, :] = 0.0
-                blocks.L[i, :, slot] = 0.0
+        fix_blocks(self.held, blocks.D, blocks.U, blocks.L)
 
     def potential(self, q: Array) -> float:
         """Energy of the weight [J], zero at the origin."""
         return -float(np.sum(self.weight * q))
-
-    def rotation_fault(self, q: Array) -> str:
-        """A sentence naming the node whose rotation is too large, or nothing."""
-        size = np.linalg.norm(q[:, 6:9], axis=1)
-        worst = int(np.argmax(size))
-        if size[worst] < LARGEST_ROTATION:
-            return ""
-        return (
-            f"Node {worst} has turned by {size[worst]:.3f} rad; the limit is {LARGEST_ROTATION:.3f} rad: "
-            f"start from a shape whose directions lie around zero, or shorten the run."
-        )

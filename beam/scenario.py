@@ -89,13 +89,15 @@ class Scenario(_Part):
     """A checked scenario; every number is an :class:`Entry`.
 
     `constants` says which section stiffness the user wants: ``"published"``, ``"cell"`` or the path of a file; whoever
-    calls :func:`beam.tow` resolves it and passes the section.
+    calls :func:`beam.tow` resolves it and passes the section. `element` is ``"rod"``, with shear and torsion, or
+    ``"ancf-cable"``, without (:mod:`beam.ancf_cable`).
     """
 
     schema_: Literal[1] = Field(alias="schema")
     name: str
     title: str
     constants: str
+    element: Literal["rod", "ancf-cable"] = "rod"
     published_constants: PublishedConstants
     cable: Cable
     layout: Layout
@@ -212,6 +214,7 @@ class Scenario(_Part):
         from beam.scenario_file import check
 
         raw: dict[str, Any] = {"schema": 1, "name": self.name, "title": self.title, "constants": self.constants}
+        raw["element"] = self.element
         for key, entry in self.entries().items():
             part, name = key.split(".")
             raw.setdefault(part, {})[name] = entry

@@ -23,9 +23,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beam.compiled import kernel
-from beam.element import gather, reference_strains, scatter_tangent
+from beam.element import gather, on_two_branches, reference_strains, scatter, shape_on_one_branch
+from beam.element_tangent import scatter_tangent
 from beam.hermite import hermite
-from beam.rotation_vector import rotation_coefficients
+from beam.rotation_vector import force_on_branch, rotation_coefficients
 from beam.section_law import SectionLaw
 from beam.strain import force_of_section, strain
 from geometry.errors import SpecError
@@ -102,20 +103,28 @@ def strains(q: Array, lengths: Array, x: Array, E0: Array) -> Array:
 
 
 @kernel
-def section_force_on_nodes(q: Array, lengths: Array, x: Array, w: Array, S: Array, F: Array) -> None:
+def section_force_on_nodes(q: Array, lengths: Array, H: Array, w: Array, S: Array, F: Array) -> None:
     """Add what the section forces `S` (n, 3, 6) exert on the nodes to `F` (n + 1, 12)."""
-    N, dN, z, E, f = np.empty(4), np.empty(4), np.empty(9), np.empty(6), np.empty(9)
+    ends, P = np.empty((2, 12)), np.empty((2, 12))
     for e in range(lengths.size):
-        for g in range(x.size):
-            hermite(x[g], lengths[e], N, dN)
-            gather(q, e, N, dN, z)
-            force_at_point(z, S[e, g], E, f)
-            weight = w[g] * lengths[e]
-            for k in range(4):
-                row, slot = e + k // 2, 3 * (k % 2)
-                for i in range(3):
-                    F[row, slot + i] += weight * dN[k] * f[6 + i]
-                    F[row, 6 + slot + i] += weight * (N[k] * f[i] + dN[k] * f[3 + i])
+        shape_on_one_branch(q, e, ends)
+        element_section_force(ends, e, lengths[e], H, w, S, P)
+        if on_two_branches(q, e):
+            force_on_branch(q[e + 1, 6:9], q[e + 1, 9:12], P[1, 6:9], P[1, 9:12])
+        for i in range(2):
+            for k in range(12):
+                F[e + i, k] += P[i, k]
+
+
+@kernel
+def element_section_force(ends: Array, e: int, length: float, H: Array, w: Array, S: Array, P: Array) -> None:
+    """Write what the section forces of element `e` exert on its `ends` (2, 12), both on one branch, into `P` (2, 12)."""
+    z, E, f = np.empty(9), np.empty(6), np.empty(9)
+    P[:] = 0.0
+    for g in range(w.size):
+        gather(ends, 0, H, g, length, z)
+        force_at_point(z, S[e, g], E, f)
+        scatter(f, 0, H, g, length, w[g], P)
 
 
 @kernel
@@ -128,16 +137,18 @@ def force_at_point(z: Array, S: Array, E: Array, f: Array) -> None:
 
 @kernel
 def section_force_tangent(
-    q: Array, lengths: Array, x: Array, w: Array, S: Array, T: Array, D: Array, U: Array, L: Array
+    q: Array, lengths: Array, x: Array, H: Array, w: Array, S: Array, T: Array, D: Array, U: Array, L: Array
 ) -> None:
-    """Add the tangent of :func:`section_force_on_nodes` with dS = T dE to the blocks."""
+    """Add the tangent of :func:`section_force_on_nodes` with dS = T dE to the blocks; of elements on one branch only."""
     step = 1e-7
     N, dN, z, here, ahead = np.empty(4), np.empty(4), np.empty(9), np.empty(9), np.empty(9)
     E, E_ahead, turned, S_ahead, G = np.empty(6), np.empty(6), np.empty(9), np.empty(6), np.empty((9, 9))
     for e in range(lengths.size):
+        if on_two_branches(q, e):
+            continue
         for g in range(x.size):
             hermite(x[g], lengths[e], N, dN)
-            gather(q, e, N, dN, z)
+            gather(q, e, H, g, lengths[e], z)
             force_at_point(z, S[e, g], E, here)
             for j in range(9):
                 zj = z[j]

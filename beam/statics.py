@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from beam.linear_solve import Factor
 from beam.rod_model import Blocks, Forces, RodModel
+from beam.rotation_vector import turn_back
 from beam.section_memory import LONG, SectionMemory
 from beam.status import Outcome, Status
 
@@ -90,9 +91,11 @@ def equilibrium(
         outcome is not completed, `q` is the last shape that was reached and `memory` the one before the load step.
     """
     settings = settings or StaticSettings()
-    q = (model.q0 if q is None else q).copy()
+    q = (model.q0 if q is None else model.rod.columns(q)).copy()
     rest, unused = np.zeros_like(q), np.zeros_like(q)
-    model.prescribe(t, q, rest.copy(), unused)
+    model.prescribe(t, q, unused, unused)
+    unused[:] = 0.0
+    turn_back(q, unused, unused, unused)
     anchors = model.fresh_anchors()
     h, count = settings.first_step, 0
     outcome = Outcome(Status.NOT_CONVERGED, "The number of steps is used up.")
@@ -115,11 +118,9 @@ def equilibrium(
                 outcome = Outcome(Status.NOT_CONVERGED, _where(model, current))
                 break
             continue
-        fault = model.rotation_fault(trial)
-        if fault:
-            outcome = Outcome(Status.ROTATION_TOO_LARGE, fault)
-            break
         q, current, anchors = trial, forces, forces.moved
+        if turn_back(q, unused, unused, unused):
+            current = forces_of(t, q, rest, anchors, friction=False)
         gain = settings.growth * (10.0 if used <= 3 else 1.0)
         h = min(h * gain, settings.largest_step)
         previous = force
@@ -138,7 +139,7 @@ def _step(
     trial, rest = q.copy(), np.zeros_like(q)
     start = np.inf
     for k in range(settings.iterations):
-        blocks = Blocks.zeros(model.rod.nodes)
+        blocks = Blocks.zeros(model.rod.nodes, model.rod.dof)
         forces = forces_of(t, trial, rest, anchors, friction=False, blocks=blocks)
         residual = np.where(model.free, forces.F + model.inertia((trial - q) / h**2), 0.0)
         size = float(np.linalg.norm(residual))

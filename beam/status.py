@@ -14,7 +14,6 @@ class Status(Enum):
     COMPLETED = "completed"
     NOT_CONVERGED = "stopped: the iteration did not converge even at the smallest step"
     NOT_FINITE = "stopped: a force became NaN or infinite"
-    ROTATION_TOO_LARGE = "stopped: a rotation came close to a full turn, where the rotation vector is singular"
 
 
 @dataclass(frozen=True)

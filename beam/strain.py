@@ -20,7 +20,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.compiled import kernel
+from beam.compiled import inlined, kernel
 from beam.rotation_vector import rotation_coefficients
 
 Array = NDArray[np.float64]
@@ -52,7 +52,7 @@ def strain(z: Array, a: float, b: float, c: float, E: Array) -> tuple[float, flo
     return p0, p1, p2, q0, q1, q2
 
 
-@kernel
+@inlined
 def strain_rate(
     z: Array, zdot: Array, a: float, b: float, c: float, db: float, dc: float, E: Array,
     p0: float, p1: float, p2: float, q0: float, q1: float, q2: float, rate: Array,
@@ -106,7 +106,7 @@ def force_of_section(
     f[2] = h2 + b * x2 + c * y2 - b * m2 + c * (M2 * tu + u2 * tM) + along * t2
 
 
-@kernel
+@inlined
 def linear_law(C: Array, C_damping: Array, E0: Array, E: Array, rate: Array, S: Array) -> tuple[float, float]:
     """Section forces `S` of the linear law with damping; returns stored energy and dissipated power per length."""
     d0, d1, d2, d3, d4, d5 = E[0] - E0[0], E[1] - E0[1], E[2] - E0[2], E[3] - E0[3], E[4] - E0[4], E[5] - E0[5]
@@ -123,7 +123,7 @@ def linear_law(C: Array, C_damping: Array, E0: Array, E: Array, rate: Array, S: 
     return stored, dissipated
 
 
-@kernel
+@inlined
 def gauss_force(
     z: Array, zdot: Array, C: Array, C_damping: Array, E0: Array, E: Array, rate: Array, S: Array, f: Array
 ) -> tuple[float, float]:
@@ -134,3 +134,32 @@ def gauss_force(
     energies = linear_law(C, C_damping, E0, E, rate, S)
     force_of_section(z, a, b, c, db, dc, E, p0, p1, p2, q0, q1, q2, S, f)
     return energies
+
+
+@inlined
+def rotary_inertia(z: Array, zdot: Array, acceleration: Array, J: Array, f: Array) -> None:
+    """Add T^T (J omega_dot + omega x J omega), the inertia of the section per length, to `f` (9,).
+
+    `acceleration` (3,) is the second derivative of theta, `J` (3,) the inertia about the section's axes.
+    """
+    t0, t1, t2, s0, s1, s2 = z[0], z[1], z[2], zdot[0], zdot[1], zdot[2]
+    _, b, c, db, dc = rotation_coefficients(t0 * t0 + t1 * t1 + t2 * t2)
+    x0, x1, x2 = cross(t0, t1, t2, s0, s1, s2)
+    y0, y1, y2 = cross(t0, t1, t2, x0, x1, x2)
+    k0, k1, k2 = cross(s0, s1, s2, x0, x1, x2)
+    a0, a1, a2 = acceleration[0], acceleration[1], acceleration[2]
+    m0, m1, m2 = cross(t0, t1, t2, a0, a1, a2)
+    n0, n1, n2 = cross(t0, t1, t2, m0, m1, m2)
+    spin = 2.0 * (t0 * s0 + t1 * s1 + t2 * s2)
+    b_dot, c_dot = spin * db, spin * dc
+    o0, o1, o2 = s0 - b * x0 + c * y0, s1 - b * x1 + c * y1, s2 - b * x2 + c * y2
+    r0 = a0 - b * m0 + c * (n0 + k0) - b_dot * x0 + c_dot * y0
+    r1 = a1 - b * m1 + c * (n1 + k1) - b_dot * x1 + c_dot * y1
+    r2 = a2 - b * m2 + c * (n2 + k2) - b_dot * x2 + c_dot * y2
+    g0, g1, g2 = cross(o0, o1, o2, J[0] * o0, J[1] * o1, J[2] * o2)
+    g0, g1, g2 = g0 + J[0] * r0, g1 + J[1] * r1, g2 + J[2] * r2
+    x0, x1, x2 = cross(t0, t1, t2, g0, g1, g2)
+    y0, y1, y2 = cross(t0, t1, t2, x0, x1, x2)
+    f[0] += g0 + b * x0 + c * y0
+    f[1] += g1 + b * x1 + c * y1
+    f[2] += g2 + b * x2 + c * y2

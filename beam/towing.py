@@ -13,12 +13,17 @@ import logging
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from beam.ancf_cable import AncfCable
+from beam.checkpoint import write_checkpoint
 from beam.generalized_alpha import Integrator, StepSettings
 from beam.incline_formula import STANDARD_GRAVITY
+from beam.record_file import RecordFile
 from beam.rod import Rod
 from beam.rod_model import RodModel, Support
 from beam.scenario import Scenario, published_section
@@ -27,7 +32,9 @@ from beam.shape import strands_and_arcs
 from beam.statics import equilibrium
 from beam.status import Outcome
 from beam.surface import ContactLaw, Cylinder, Plane
-from beam.towing_run import Frames, TowingRun
+from beam.towing_frame import empty_dataset
+from beam.towing_restart import checkpoint_path, resumed_run
+from beam.towing_run import Frames, TowingRun, run_attributes
 from homogenize.section_stiffness import SectionInertia, SectionStiffness
 
 Array = NDArray[np.float64]
@@ -35,15 +42,19 @@ Progress = Callable[[float, str], None]
 
 logger = logging.getLogger(__name__)
 
+ELEMENTS: dict[str, type[Rod]] = {kind.name: kind for kind in (Rod, AncfCable)}
 
-def towing_model(scenario: Scenario, section: SectionStiffness, inertia: SectionInertia) -> RodModel:
+
+def towing_model(
+    scenario: Scenario, section: SectionStiffness, inertia: SectionInertia, law: SectionLaw | None = None
+) -> RodModel:
     """The mechanical problem of a scenario; `inertia` is the cable's, the clamps' mass is added here."""
     cable, contact, layout = scenario.cable, scenario.contact, scenario.layout
     with_clamps = SectionInertia(
         inertia.mass_per_length + cable.clamp_mass_per_length.value, inertia.J_x, inertia.J_y, inertia.J_z
     )
     damping = DampingTimes(cable.damping_time_axial.value, cable.damping_time_bending.value)
-    rod = Rod.straight(cable.length.value, scenario.elements, section, with_clamps, damping)
+    rod = ELEMENTS[scenario.element].straight(cable.length.value, scenario.elements, section, with_clamps, damping)
     R, lower = layout.bend_radius.value, scenario.lower_strand
     pieces = [(lower, 0.0), (scenario.bend_length, -1.0 / R), (layout.upper_strand.value, 0.0)]
     trough = ContactLaw(contact.stiffness.value, contact.friction.value, contact.damping_time.value)
@@ -60,6 +71,7 @@ def towing_model(scenario: Scenario, section: SectionStiffness, inertia: Section
             Plane("deck", trough, offset=2 * R, low=deck_begin, box_travel=scenario.trolley),
             Cylinder("roller", roller, (scenario.roller_start, R, 0.0), R, scenario.trolley),
         ],
+        law=law,
     )
 
 
@@ -71,6 +83,9 @@ def tow(
     progress: Progress | None = None,
     settings: StepSettings | None = None,
     law: SectionLaw | None = None,
+    file: str | Path | None = None,
+    resume: bool = False,
+    checkpoint_every: float = 10.0,
 ) -> TowingRun:
     """Static start, then the towing run.
 
@@ -90,6 +105,13 @@ def tow(
     law : SectionLaw, optional
         Section forces with internal state on top of the linear section, such as `effects.rod_law.RodLaw`. The cable is
         taken to have been bent from straight into the starting shape, and to have rested there.
+    file : path, optional
+        NetCDF file that grows with every instant of the run, see :mod:`beam.record_file`; then no instant is kept in memory.
+        A checkpoint is kept beside it until the run is complete.
+    resume : bool, optional
+        Go on, bit by bit as if it had never stopped, with the run that was being written to `file`.
+    checkpoint_every : float, optional
+        Seconds of computing between checkpoints.
 
     Returns
     -------
@@ -100,30 +122,37 @@ def tow(
     ------
     ConvergenceError
         If no static equilibrium is found to start from.
+    InputError
+        If the file cannot be written, or there is nothing in it to go on with.
     """
     begin = time.perf_counter()
     section = section or published_section(scenario)
     inertia = inertia or scenario.cable_inertia
     tell = progress or (lambda fraction, sentence: None)
-    tell(0.0, "looking for the equilibrium to start from")
-    model = towing_model(scenario, section, inertia)
-    model.law = law
-    start = equilibrium(model)
-    start.outcome.require_success()
-    logger.info("static residual %.1e N, %.1e N m", start.residual_force, start.residual_moment)
+    model = towing_model(scenario, section, inertia, law)
     settings, per_frame, frames = _steps(scenario, settings)
-    motion = Integrator(model, start.q, anchors=start.anchors, settings=settings, memory=start.memory)
-    record = Frames(model)
-    record.take(motion)
-    for k in range(frames):
+    path = None if file is None else Path(file)
+    attributes = run_attributes(scenario, section, model.rod.mass_per_length)
+    if resume:
+        motion, record, residual = resumed_run(scenario, model, settings, path, attributes)
+    else:
+        tell(0.0, "looking for the equilibrium to start from")
+        motion, record, residual = _started_run(scenario, model, settings, path, attributes)
+    due = time.perf_counter() + checkpoint_every
+    for k in range(len(record.times), frames + 1):
         if not motion.advance(per_frame):
             break
         record.take(motion)
-        tell((k + 1) / frames, f"{motion.t:.2f} s of {scenario.time.duration.value:g} s")
+        if path is not None and time.perf_counter() >= due:
+            write_checkpoint(motion, checkpoint_path(path))
+            due = time.perf_counter() + checkpoint_every
+        tell(k / frames, f"{motion.t:.2f} s of {scenario.time.duration.value:g} s")
     outcome: Outcome = motion.outcome
     if not outcome.completed:
         logger.warning("%s", outcome)
-    return TowingRun(
+    elif path is not None:
+        checkpoint_path(path).unlink(missing_ok=True)
+    run = TowingRun(
         scenario=scenario,
         section=section,
         mass_per_length=model.rod.mass_per_length,
@@ -131,10 +160,32 @@ def tow(
         outcome=outcome,
         counters=motion.counters,
         balance_error=motion.ledger.balance_error,
-        static_residual=(start.residual_force, start.residual_moment),
+        static_residual=residual,
         deepest_penetration=motion.deepest,
         seconds_wall=time.perf_counter() - begin,
     )
+    run.close()
+    return run
+
+
+def _started_run(
+    scenario: Scenario, model: RodModel, settings: StepSettings, path: Path | None, attributes: dict[str, Any]
+) -> tuple[Integrator, Frames, tuple[float, float]]:
+    """Static start, first instant, residual of the equilibrium."""
+    start = equilibrium(model)
+    start.outcome.require_success()
+    residual = (start.residual_force, start.residual_moment)
+    logger.info("static residual %.1e N, %.1e N m", *residual)
+    motion = Integrator(model, start.q, anchors=start.anchors, settings=settings, memory=start.memory)
+    attributes |= {"static_residual_N": residual[0], "static_residual_N_m": residual[1]}
+    record = Frames(scenario, model)
+    if path is not None:
+        checkpoint_path(path).unlink(missing_ok=True)
+        record.file = RecordFile.create(path, empty_dataset(model, attributes))
+    record.take(motion)
+    if path is not None:
+        write_checkpoint(motion, checkpoint_path(path))
+    return motion, record, residual
 
 
 def _steps(scenario: Scenario, settings: StepSettings | None) -> tuple[StepSettings, int, int]:

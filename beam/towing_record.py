@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from beam.section_stress import largest_normal_stress
+
 if TYPE_CHECKING:
     from beam.towing_run import TowingRun
 
@@ -30,6 +32,7 @@ def towing_record(run: TowingRun) -> dict[str, Any]:
             "Fy_max": _largest(force[:, 1]),
         }
     up, down = run.formula_forces()
+    energy = data["energy"].values
     entries = run.scenario.entries()
     published = {k.split(".")[1]: e.value for k, e in entries.items() if k.startswith("published_results.")}
     return {
@@ -39,13 +42,17 @@ def towing_record(run: TowingRun) -> dict[str, Any]:
         "seconds_simulated": float(time[-1]),
         "seconds_wall": run.seconds_wall,
         "elements": run.scenario.elements,
+        "element": run.scenario.element,
         "constants": run.scenario.constants,
         "peak_tension": float(data["force_local"].values[:, :, 0].max()),
+        "bend_radius_min": float(data["bend_radius"].values.min()),
+        "normal_stress_max": _largest_stress(run),
         "pull_force_plateau": _plateau(time, data["pull_force"].values[:, 0]),
         "pull_force_max": _largest(data["pull_force"].values[:, 0]),
         "formula_22_peak": float(up.max()),
         "formula_23_peak": float(down.max()),
         "energy_balance_error": float(run.balance_error),
+        "energies": dict(zip(map(str, data["source"].values), (energy[-1] - energy[0]).tolist(), strict=True)),
         "static_residual": {"force": run.static_residual[0], "moment": run.static_residual[1]},
         "deepest_penetration": run.deepest_penetration[0],
         "nodes": nodes,
@@ -76,6 +83,12 @@ def _lateral_note(run: TowingRun) -> str:
     if np.abs(run.dataset["position"].values[:, :, 2]).max() < 1e-6:
         return "The run is plane: nothing disturbs it sideways, the lateral displacement is round-off."
     return "The section's coupling of stretch and twist moves the cable sideways; there are no trough walls yet."
+
+
+def _largest_stress(run: TowingRun) -> float:
+    """Largest tensile stress of the equivalent circle [Pa], instant by instant, so that a long run stays in its file."""
+    frames, diameter = run.frames.values("gauss_force"), run.scenario.cable.diameter.value
+    return float(max(largest_normal_stress(S, diameter)[0].max() for S in frames))
 
 
 def _plateau(time: np.ndarray, values: np.ndarray) -> float:

@@ -1,4 +1,4 @@
-"""What a towing run leaves behind: an xarray dataset with units and meanings, written as NetCDF.
+"""What a towing run leaves behind: an xarray dataset with units and meanings, in memory or in a NetCDF file that grows.
 
 ``force_global`` at a node is what the part of the cable on the shearer's side exerts on the part on the supply's side, so
 that a pulled upper strand has a positive x component and a pulled lower strand a negative one, as published.
@@ -12,15 +12,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from beam.energy_ledger import energy_names
 from beam.generalized_alpha import Counters, Integrator
-from beam.incline_formula import towing_force_down, towing_force_up
+from beam.record_file import RecordFile
+from beam.rod import GAUSS_X
 from beam.rod_model import RodModel
 from beam.scenario import Scenario
-from beam.section_force import nodal_section_forces
+from beam.section_stress import point_strains, point_stresses
 from beam.status import Outcome
+from beam.towing_frame import empty_dataset, formula_forces, frame
 from geometry.errors import InputError
 from homogenize.section_stiffness import SectionStiffness
 
@@ -29,56 +30,66 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-VECTORS: dict[str, tuple[str, str, str]] = {
-    # name: (second axis, unit, long name)
-    "position": ("axis", "m", "position of the centre line"),
-    "tangent": ("axis", "1", "derivative of the position by arc length"),
-    "rotation_vector": ("axis", "rad", "total rotation vector of the section"),
-    "force_local": ("section_axis", "N", "section force: tension N, shear Q2, Q3, in the section's axes"),
-    "moment_local": ("section_axis", "N m", "section moment: torque, bending M2, M3, in the section's axes"),
-    "force_global": ("axis", "N", "section force of the shearer's side on the supply's side, global axes"),
-    "moment_global": ("axis", "N m", "section moment of the shearer's side on the supply's side, global axes"),
-    "contact_force": ("axis", "N", "contact force of trough, deck and roller on the cable, collected at the node"),
-    "friction_force": ("axis", "N", "friction part of contact_force"),
-}
-ENDS: dict[str, str] = {
-    "pull_force": "force of the shearer on the cable's end",
-    "supply_reaction": "force of the fixed support at the supply end",
-}
+STATUS_LENGTH = 800
+"""Characters that are kept free for the status in a file that is being written."""
 
 
 @dataclass
 class Frames:
-    """Output frames as they are computed; rows of plain arrays."""
+    """Instants of a run as they are computed: rows in memory, or records of a file (then nothing stays in memory)."""
 
+    scenario: Scenario
     model: RodModel
-    times: list[float] = field(default_factory=list)
-    vectors: dict[str, list[Array]] = field(default_factory=lambda: {name: [] for name in VECTORS})
-    ends: dict[str, list[Array]] = field(default_factory=lambda: {name: [] for name in ENDS})
-    energies: list[list[float]] = field(default_factory=list)
+    file: RecordFile | None = None
+    rows: list[dict[str, Any]] = field(default_factory=list)
 
     def take(self, motion: Integrator) -> None:
         """Append the present state of `motion`."""
-        q, forces = motion.q, motion.forces
-        local, turned = nodal_section_forces(q, self.model.rod.lengths, forces.S)
-        values = {
-            "position": q[:, 0:3],
-            "tangent": q[:, 3:6],
-            "rotation_vector": q[:, 6:9],
-            "force_local": local[:, :3],
-            "moment_local": local[:, 3:],
-            "force_global": turned[:, :3],
-            "moment_global": turned[:, 3:],
-            "contact_force": forces.contact,
-            "friction_force": forces.friction,
-        }
-        self.times.append(motion.t)
-        for name, value in values.items():
-            self.vectors[name].append(value.copy())
-        reaction = motion.reaction
-        self.ends["pull_force"].append(reaction[-1, 0:3].copy())
-        self.ends["supply_reaction"].append(reaction[0, 0:3].copy())
-        self.energies.append([float(motion.ledger.totals[name]) for name in energy_names(self.model)])
+        values = frame(self.scenario, motion)
+        if self.file is not None:
+            self.file.append(values)
+        else:
+            self.rows.append({name: np.array(value, dtype=float) for name, value in values.items()})
+
+    def values(self, name: str) -> Array:
+        """A variable at all instants; mapped from the file if there is one."""
+        if self.file is not None:
+            return self.file.read(name)
+        return np.array([row[name] for row in self.rows])
+
+    @property
+    def times(self) -> Array:
+        """Instants [s]."""
+        return self.values("time")
+
+
+def run_attributes(scenario: Scenario, section: SectionStiffness, mass_per_length: float) -> dict[str, Any]:
+    """Attributes of the dataset; those that the run decides stand at their start values and keep their length."""
+    entries = "; ".join(f"{key} = {entry.text} ({entry.status})" for key, entry in scenario.entries().items())
+    return {
+        "title": scenario.title,
+        "scenario": scenario.name,
+        "constants": scenario.constants,
+        "status": fixed_length("not finished: it is running, or was ended from outside"),
+        "elements": scenario.elements,
+        "element": scenario.element,
+        "diameter_m": scenario.cable.diameter.value,
+        "mass_per_length_kg_per_m": mass_per_length,
+        "section_stiffness_order": "gamma_x, gamma_y, epsilon, kappa_x, kappa_y, tau",
+        "section_stiffness": np.ravel(section.C),
+        "energy_balance_error": np.nan,
+        "static_residual_N": np.nan,
+        "static_residual_N_m": np.nan,
+        "deepest_penetration_m": np.nan,
+        "steps": 0,
+        "entries": entries,
+    }
+
+
+def fixed_length(status: str) -> str:
+    """`status` cut or filled with blanks to :data:`STATUS_LENGTH` bytes, all ASCII."""
+    plain = status.encode("ascii", "replace").decode("ascii")
+    return plain[:STATUS_LENGTH].ljust(STATUS_LENGTH)
 
 
 @dataclass(frozen=True)
@@ -117,42 +128,46 @@ class TowingRun:
 
     @property
     def dataset(self) -> xarray.Dataset:
-        """Everything over time and node; built at every call."""
-        import xarray as xr
-
-        frames = self.frames
-        nodes = frames.model.rod.nodes
-        data: dict[str, Any] = {}
-        for name, (axis, unit, meaning) in VECTORS.items():
-            data[name] = (("time", "node", axis), np.array(frames.vectors[name]), {"units": unit, "long_name": meaning})
-        for name, meaning in ENDS.items():
-            data[name] = (("time", "axis"), np.array(frames.ends[name]), {"units": "N", "long_name": meaning})
-        up, down = self.formula_forces()
-        data["formula_up"] = ("time", up, {"units": "N", "long_name": "towing force of formula (22)"})
-        data["formula_down"] = ("time", down, {"units": "N", "long_name": "towing force of formula (23)"})
-        meaning = "energies stored and spent, work of the drives, by source"
-        data["energy"] = (("time", "source"), np.array(frames.energies), {"units": "J", "long_name": meaning})
-        count = {"long_name": "node, counted from the shearer", "units": "1"}
-        coords = {
-            "time": ("time", np.array(frames.times), {"units": "s", "long_name": "time"}),
-            "node": ("node", np.arange(nodes - 1, -1, -1), count),
-            "s": ("node", frames.model.rod.s, {"units": "m", "long_name": "arc length from the supply, unstretched"}),
-            "axis": ("axis", ["x", "y", "z"], {"long_name": "global axes: travel, normal to the trough, across"}),
-            "section_axis": ("section_axis", ["1", "2", "3"], {"long_name": "axes of the section, 1 along the cable"}),
-            "source": ("source", list(energy_names(frames.model)), {"long_name": "where the energy is or went"}),
-        }
-        return xr.Dataset(data, coords, self._attributes())
+        """Everything over time and node; built at every call, from the file if the run was written to one."""
+        empty = empty_dataset(self.frames.model, self.attributes())
+        data = {name: (x.dims, self.frames.values(str(name)), x.attrs) for name, x in empty.data_vars.items()}
+        fixed = {name: x for name, x in empty.coords.items() if name != "time"}
+        time = ("time", self.frames.times, empty["time"].attrs)
+        return type(empty)(data, {**fixed, "time": time}, empty.attrs)
 
     def formula_forces(self) -> tuple[Array, Array]:
         """Formulas (22) and (23) over the frames for the mass of the upper strand, which moves with the shearer [N]."""
-        scenario, times = self.scenario, self.frames.times
-        pull = [scenario.pull(t) for t in times]
-        travel = np.array([scenario.trolley(t)[0][0] for t in times])
-        stroke = np.array([u[0] for u, _, _ in pull])
-        mass = self.mass_per_length * (scenario.layout.upper_strand.value + stroke - travel)
-        acceleration = np.array([a[0] for _, _, a in pull])
-        slope, mu = scenario.layout.inclination.value, scenario.contact.friction.value
-        return towing_force_up(mass, slope, mu, acceleration), towing_force_down(mass, slope, mu, acceleration)
+        return formula_forces(self.scenario, self.mass_per_length, self.frames.times)
+
+    def strains(self, xi: float, y: ArrayLike, z: ArrayLike) -> Array:
+        """(epsilon, gamma_12, gamma_13) at the point (xi, y, z) of every element, (time, element, 3).
+
+        Parameters
+        ----------
+        xi : float
+            Place in the element, 0 to 1 from the supply's side.
+        y, z : array_like
+            Point of the section along e2 and e3 [m]: one number, or one per element.
+        """
+        return point_strains(self._at("gauss_strain", xi), y, z)
+
+    def stresses(self, xi: float, y: ArrayLike, z: ArrayLike) -> Array:
+        """(sigma, tau_12, tau_13) [Pa] at the point (xi, y, z) of every element, (time, element, 3).
+
+        Smeared over the circle of the cable's diameter, see :mod:`beam.section_stress`; parameters as of :meth:`strains`.
+
+        Raises
+        ------
+        InputError
+            If the point lies outside the section or the element.
+        """
+        return point_stresses(self._at("gauss_force", xi), y, z, self.scenario.cable.diameter.value)
+
+    def _at(self, name: str, xi: float) -> Array:
+        """Gauss-point values of `name` at the place `xi` by the parabola through them."""
+        if not 0.0 <= xi <= 1.0:
+            raise InputError(f"the place xi in an element is {xi:g}; it must lie between 0 and 1.")
+        return np.einsum("g,tegi->tei", through_gauss_points(xi), self.frames.values(name))
 
     def node(self, published: int) -> int:
         """Label of the dataset's node for number `published` of the source's 400, at the same fraction of the length."""
@@ -161,12 +176,17 @@ class TowingRun:
     def write(self, path: str | Path) -> Path:
         """Write the dataset as NetCDF: version 4 by h5netcdf where h5py is installed, otherwise version 3 by scipy.
 
+        A run that was written to this file while it ran is there already.
+
         Raises
         ------
         InputError
             If the file cannot be written.
         """
         path = Path(path)
+        file = self.frames.file
+        if file is not None and path.resolve() == file.path.resolve():
+            return path
         engine: Literal["h5netcdf", "scipy"] = "h5netcdf" if find_spec("h5py") else "scipy"
         try:
             self.dataset.to_netcdf(path, engine=engine)
@@ -180,21 +200,34 @@ class TowingRun:
 
         return towing_record(self)
 
-    def _attributes(self) -> dict[str, Any]:
-        scenario = self.scenario
-        return {
-            "title": scenario.title,
-            "scenario": scenario.name,
-            "constants": scenario.constants,
+    def attributes(self) -> dict[str, Any]:
+        """Attributes of the dataset: what was run, and how it ended."""
+        attributes = run_attributes(self.scenario, self.section, self.mass_per_length)
+        return attributes | {
             "status": self.status,
-            "elements": scenario.elements,
-            "mass_per_length_kg_per_m": self.mass_per_length,
-            "section_stiffness_order": "gamma_x, gamma_y, epsilon, kappa_x, kappa_y, tau",
-            "section_stiffness": np.ravel(self.section.C),
             "energy_balance_error": self.balance_error,
             "static_residual_N": self.static_residual[0],
             "static_residual_N_m": self.static_residual[1],
             "deepest_penetration_m": self.deepest_penetration[0],
             "steps": self.counters.steps,
-            "entries": "; ".join(f"{key} = {entry.text} ({entry.status})" for key, entry in scenario.entries().items()),
         }
+
+    def close(self) -> None:
+        """Write how the run ended into its file, if it has one."""
+        if self.frames.file is not None:
+            attributes = self.attributes()
+            attributes["status"] = fixed_length(self.status)
+            self.frames.file.restate(empty_dataset(self.frames.model, attributes))
+
+
+def through_gauss_points(xi: float) -> Array:
+    """Weights (3,) of the values at the Gauss points in the parabola through them at `xi`.
+
+    Examples
+    --------
+    >>> through_gauss_points(0.5).round(12) + 0.0
+    array([0., 1., 0.])
+    """
+    x = GAUSS_X
+    others = [np.delete(x, g) for g in range(x.size)]
+    return np.array([np.prod((xi - rest) / (x[g] - rest)) for g, rest in enumerate(others)])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -26,11 +26,18 @@ def tow(
         str | None, typer.Option(metavar="NAME", help="`published`, `cell`, or a JSON file of `helicable homogenize`.")
     ] = None,
     cable: Annotated[str, typer.Option(metavar="CABLE", help="Cable that `cell` homogenizes.")] = REFERENCE_CABLE,
+    element: Annotated[
+        Literal["rod", "ancf-cable"] | None,
+        typer.Option(help="`rod` (shear and torsion) or `ancf-cable` (neither, faster)."),
+    ] = None,
     show_list: Annotated[bool, typer.Option("--list", help="List the built-in scenarios.")] = False,
     json: JsonOption = None,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="DIR", help="Write run.nc, curves and pictures here.")
     ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with the run in DIR/run.nc that was ended from outside.")
+    ] = False,
 ) -> None:
     """Run a towing scenario: static start, contact, friction, forces along the cable.
 
@@ -45,7 +52,10 @@ def tow(
         return
     if scenario is None:
         raise SpecError("no scenario was named: try helicable tow intelligent-horizontal, or helicable tow --list.")
-    run, used = towing_run(scenario, constants, cable)
+    if resume and out is None:
+        raise SpecError("--resume needs --out DIR, the folder in which the run was being written.")
+    file = None if out is None else folder(out) / "run.nc"
+    run, used = towing_run(scenario, constants, cable, element=element, file=file, resume=resume)
     show_run(run, used)
     record = towing_json(run, used)
     if out is not None:
@@ -59,15 +69,26 @@ def tow(
 
 
 def towing_run(
-    scenario: str, constants: str | None, cable: str, cell: SectionStiffness | None = None
+    scenario: str,
+    constants: str | None,
+    cable: str,
+    cell: SectionStiffness | None = None,
+    element: str | None = None,
+    file: Path | None = None,
+    resume: bool = False,
 ) -> tuple[TowingRun, BeamConstants]:
-    """Read a scenario, resolve its constants (`cell`, if given, is the section of the cable), and run it with progress."""
+    """Read a scenario, resolve its constants (`cell`, if given, is the section of the cable), and run it with progress.
+
+    With a `file` the run is written there while it goes; with `resume` it goes on from what is there.
+    """
     read = read_scenario(scenario)
     if constants is not None:
         read = read.model_copy(update={"constants": constants})
+    if element is not None:
+        read = read.model_copy(update={"element": element})
     used = beam_constants(read, cable, cell)
     with progress("towing") as tell:
-        run = run_towing(read, used.section, progress=tell)
+        run = run_towing(read, used.section, progress=tell, file=file, resume=resume)
     return run, used
 
 
@@ -120,7 +141,10 @@ def run_rows(run: TowingRun) -> list[tuple[str, str]]:
         ("energy balance error", f"{abs(r['energy_balance_error']):.1e} of the throughput"),
         ("static residual at the start", f"{r['static_residual']['force']:.1e} N"),
         ("deepest penetration", f"{1e3 * r['deepest_penetration']:.3f} mm"),
-        ("time", f"{r['seconds_simulated']:.2f} s simulated in {r['seconds_wall']:.1f} s, {r['elements']} elements"),
+        (
+            "time",
+            f"{r['seconds_simulated']:.2f} s simulated in {r['seconds_wall']:.1f} s, {r['elements']} elements ({r['element']})",
+        ),
     ]
 
 

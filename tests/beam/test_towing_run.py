@@ -27,7 +27,9 @@ def test_every_variable_has_unit_and_meaning(run):
     for name, variable in data.data_vars.items():
         assert variable.attrs["units"] and variable.attrs["long_name"], name
         assert np.isfinite(variable.values).all(), name
-    assert data.sizes == {"time": 61, "node": 101, "axis": 3, "section_axis": 3, "source": 9}
+    assert data.sizes == {
+        "time": 61, "node": 101, "axis": 3, "section_axis": 3, "source": 9, "element": 100, "gauss": 3, "strain": 6, "surface": 3,
+    }  # fmt: skip
     np.testing.assert_allclose(data["time"].values, np.arange(61) * 0.05, rtol=0, atol=1e-12)
 
 
@@ -81,9 +83,27 @@ def test_contact_carries_the_weight(run):
     assert float(data["contact_force"].values[:, 1].sum()) + supports == pytest.approx(weight, rel=2e-3)
 
 
+def test_upper_strand_slips_and_lower_strand_sticks(run):
+    """|t| = mu f_n on the deck behind the shearer; below it in the trough near the supply, which does not move."""
+    use = run.dataset["friction_use"].isel(time=-1)
+    np.testing.assert_allclose(use.sel(surface="deck").values[80:98], 1.0, rtol=1e-9)
+    assert use.sel(surface="trough").values[5:20].max() < 0.99
+
+
 def test_energy_is_closed(run):
     """The balance closes to 1e-5 of the throughput."""
     assert abs(run.balance_error) < 1e-5
+
+
+def test_energy_is_closed_to_a_millionth_of_the_work_done(run):
+    """At every instant, with the iteration taken to round-off and half the step; the rest falls with the step's square."""
+    from beam.generalized_alpha import StepSettings
+
+    settings = StepSettings(2.5e-3, relative=1e-9, absolute=1e-5, iterations=30)
+    fine = tow(run.scenario, settings=settings).dataset
+    work = float(fine["energy"].sel(source="drive_work")[-1])
+    assert work > 10
+    assert np.abs(fine["energy_error"].values).max() < 1e-6 * work
 
 
 def test_record_has_the_agreed_keys(run):

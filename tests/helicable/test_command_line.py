@@ -9,8 +9,8 @@ from helicable.main import main
 
 CABLE = "mcpt-1.9-3.3-3x35"
 VERBS = (
-    "cables", "show", "mesh", "homogenize", "loop", "stress", "tow", "check", "compare", "explain", "add", "next", "effects", "demo",
-    "verify",
+    "cables", "show", "mesh", "homogenize", "loop", "stress", "tow", "sweep", "check", "compare", "explain", "add", "next", "effects",
+    "demo", "verify",
 )  # fmt: skip
 
 
@@ -162,6 +162,9 @@ BAD = [
     (["tow"], "--list"),
     (["tow", "no-such-scenario"], "no-such-scenario"),
     (["tow", "intelligent-horizontal", "--constants", "nothing.json"], "nothing.json"),
+    (["tow", "intelligent-horizontal", "--resume"], "--out"),
+    (["sweep", "intelligent-horizontal"], "What can be swept: constants, E,"),
+    (["sweep", "intelligent-horizontal", "--over", "frction=0.2"], "did you mean friction"),
     (["compare", "no-such-folder"], "no-such-folder"),
     (["no-such-verb"], "no-such-verb"),
     (["homogenize"], "CABLE"),

@@ -18,7 +18,7 @@ def test_import_linter_contracts_hold():
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("library", ["gmsh", "meshio", "pyvista", "pint", "pyamg", "jinja2", "tomllib"])
+@pytest.mark.parametrize("library", ["gmsh", "meshio", "pyvista", "pint", "pyamg", "jinja2", "distributed", "tomllib"])
 def test_one_file_imports_each_heavy_library(library):
     """One door each (reading TOML: one door per kind of file)."""
     doors = [

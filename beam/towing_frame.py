@@ -1,0 +1,186 @@
+"""One instant of a towing run: everything that is recorded, with axes, unit and meaning.
+
+Forces at nodes come from :mod:`beam.section_force`; strains and section forces at the Gauss points are those of the element
+itself. Elements are counted from the supply, nodes from the shearer.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beam.energy_ledger import energy_names
+from beam.generalized_alpha import Integrator
+from beam.incline_formula import towing_force_down, towing_force_up
+from beam.rod import GAUSS_X
+from beam.rod_model import RodModel
+from beam.scenario import Scenario
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = NDArray[np.float64]
+
+VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
+    # name: (axes besides time, unit, long name)
+    "position": (("node", "axis"), "m", "position of the centre line"),
+    "tangent": (("node", "axis"), "1", "derivative of the position by arc length"),
+    "rotation_vector": (("node", "axis"), "rad", "rotation vector of the section"),
+    "force_local": (("node", "section_axis"), "N", "section force: tension N, shear Q2, Q3, in the section's axes"),
+    "moment_local": (
+        ("node", "section_axis"),
+        "N m",
+        "section moment: torque, bending M2, M3, in the section's axes",
+    ),
+    "force_global": (
+        ("node", "axis"),
+        "N",
+        "section force of the shearer's side on the supply's side, global axes",
+    ),
+    "moment_global": (
+        ("node", "axis"),
+        "N m",
+        "section moment of the shearer's side on the supply's side, global axes",
+    ),
+    "contact_force": (
+        ("node", "axis"),
+        "N",
+        "contact force of trough, deck and roller on the cable, collected at the node",
+    ),
+    "friction_force": (("node", "axis"), "N", "friction part of contact_force"),
+    "gauss_strain": (
+        ("element", "gauss", "strain"),
+        "1 (stretch, shears), 1/m (twist, curvatures)",
+        "strains at the Gauss points, minus those of the stress-free shape",
+    ),
+    "gauss_force": (
+        ("element", "gauss", "strain"),
+        "N (N, Q2, Q3), N m (M1, M2, M3)",
+        "section forces and moments at the Gauss points, each conjugate to its strain",
+    ),
+    "friction_use": (
+        ("element", "surface"),
+        "1",
+        "largest |t| / (mu f_n) of the element's contact points: below 1 it sticks, 1 it slips; 0 without contact or friction",
+    ),
+    "pull_force": (("axis",), "N", "force of the shearer on the cable's end"),
+    "pull_moment": (("axis",), "N m", "moment of the shearer on the cable's end"),
+    "supply_reaction": (("axis",), "N", "force of the fixed support at the supply end"),
+    "supply_moment": (("axis",), "N m", "moment of the fixed support at the supply end"),
+    "bend_radius": ((), "m", "smallest bend radius of the centre line"),
+    "bend_radius_at": ((), "m", "arc length from the supply where the bend radius is smallest"),
+    "formula_up": ((), "N", "towing force of formula (22)"),
+    "formula_down": ((), "N", "towing force of formula (23)"),
+    "energy": (("source",), "J", "energies stored and spent, work of the drives, by source"),
+    "energy_error": ((), "J", "stored since the start + lost - work of the drives: from nowhere"),
+}
+
+STRAINS = ("Gamma_1", "Gamma_2", "Gamma_3", "kappa_1", "kappa_2", "kappa_3")
+
+
+def frame(scenario: Scenario, motion: Integrator) -> dict[str, Any]:
+    """Values of ``time`` and all :data:`VARIABLES` at the present state of `motion`."""
+    q, forces, model = motion.q, motion.forces, motion.model
+    rod = model.rod
+    theta, local, turned = rod.sections(q, forces.S)
+    E = rod.strains(q)
+    radius, where = _bend_radius(E + rod.E0, gauss_arc_length(model))
+    up, down = formula_forces(scenario, model.rod.mass_per_length, np.array([motion.t]))
+    reaction = motion.reaction
+    first, last = (rod.moment(q[k], reaction[k]) for k in (0, -1))
+    return {
+        "time": motion.t,
+        "position": q[:, 0:3],
+        "tangent": q[:, 3:6],
+        "rotation_vector": theta,
+        "force_local": local[:, :3],
+        "moment_local": local[:, 3:],
+        "force_global": turned[:, :3],
+        "moment_global": turned[:, 3:],
+        "contact_force": forces.contact,
+        "friction_force": forces.friction,
+        "gauss_strain": E,
+        "gauss_force": rod.in_section_axes(q, forces.S),
+        "friction_use": np.stack([cone.max(axis=1) for cone in forces.cones], axis=1),
+        "pull_force": reaction[-1, 0:3],
+        "pull_moment": last,
+        "supply_reaction": reaction[0, 0:3],
+        "supply_moment": first,
+        "bend_radius": radius,
+        "bend_radius_at": where,
+        "formula_up": up[0],
+        "formula_down": down[0],
+        "energy": np.array([motion.ledger.totals[name] for name in energy_names(model)]),
+        "energy_error": motion.ledger.balance_error * motion.ledger.throughput,
+    }
+
+
+def empty_dataset(model: RodModel, attributes: dict[str, Any]) -> xarray.Dataset:
+    """All variables, coordinates and attributes of a run, with no instant of it."""
+    import xarray as xr
+
+    coords = _coordinates(model)
+    sizes = {name: len(values) for name, (dims, values, _) in coords.items() if dims == (name,)}
+    data = {}
+    for name, (dims, unit, meaning) in VARIABLES.items():
+        shape = (0, *(sizes[dim] for dim in dims))
+        data[name] = (("time", *dims), np.zeros(shape), {"units": unit, "long_name": meaning})
+    return xr.Dataset(data, coords, attributes)
+
+
+def gauss_arc_length(model: RodModel) -> Array:
+    """Arc length of the Gauss points from the supply, unstretched (n, 3) [m]."""
+    return model.rod.s[:-1, None] + GAUSS_X * model.rod.lengths[:, None]
+
+
+def formula_forces(scenario: Scenario, mass_per_length: float, times: Array) -> tuple[Array, Array]:
+    """Formulas (22) and (23) at `times` [s] for the mass of the upper strand, which moves with the shearer [N]."""
+    pull = [scenario.pull(t) for t in times]
+    travel = np.array([scenario.trolley(t)[0][0] for t in times])
+    stroke = np.array([u[0] for u, _, _ in pull])
+    mass = mass_per_length * (scenario.layout.upper_strand.value + stroke - travel)
+    acceleration = np.array([a[0] for _, _, a in pull])
+    slope, mu = scenario.layout.inclination.value, scenario.contact.friction.value
+    return towing_force_up(mass, slope, mu, acceleration), towing_force_down(mass, slope, mu, acceleration)
+
+
+def _bend_radius(E: Array, s: Array) -> tuple[float, float]:
+    curvature = np.hypot(E[:, :, 4], E[:, :, 5])
+    k = int(curvature.argmax())
+    return 1.0 / max(float(curvature.flat[k]), 1e-9), float(s.flat[k])
+
+
+def _coordinates(model: RodModel) -> dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]:
+    nodes, elements = model.rod.nodes, model.rod.lengths.size
+    count = {"long_name": "node, counted from the shearer", "units": "1"}
+    return {
+        "time": (("time",), np.zeros(0), {"units": "s", "long_name": "time"}),
+        "node": (("node",), np.arange(nodes - 1, -1, -1), count),
+        "s": (("node",), model.rod.s, {"units": "m", "long_name": "arc length from the supply, unstretched"}),
+        "element": (
+            ("element",),
+            np.arange(elements),
+            {"long_name": "element, counted from the supply", "units": "1"},
+        ),
+        "gauss": (("gauss",), GAUSS_X, {"long_name": "place of the Gauss point in the element, 0 to 1", "units": "1"}),
+        "s_gauss": (
+            ("element", "gauss"),
+            gauss_arc_length(model),
+            {"units": "m", "long_name": "arc length of the Gauss points from the supply, unstretched"},
+        ),
+        "axis": (
+            ("axis",),
+            ["x", "y", "z"],
+            {"long_name": "global axes: travel, normal to the trough, across"},
+        ),
+        "section_axis": (
+            ("section_axis",),
+            ["1", "2", "3"],
+            {"long_name": "axes of the section, 1 along the cable"},
+        ),
+        "strain": (("strain",), list(STRAINS), {"long_name": "stretch, two shears, twist, two curvatures"}),
+        "surface": (("surface",), [s.name for s in model.surfaces], {"long_name": "what the cable touches"}),
+        "source": (("source",), list(energy_names(model)), {"long_name": "where the energy is or went"}),
+    }
