@@ -16,9 +16,9 @@ from helicable.screen import errors
 
 VERBS = (
     "cables", "show", "mesh", "homogenize", "loop", "stress", "tow", "check", "compare", "explain", "add", "next", "effects", "demo",
-    "verify",
+    "verify", "strand-test",
 )  # fmt: skip
-FILES = {"next": "next_experiment"}  # where a verb's file and function are not named as the verb
+FILES = {"next": "next_experiment", "strand-test": "strand_test"}  # where a verb's file and function are not named as the verb
 
 
 def application(arguments: Sequence[str]) -> typer.Typer:
