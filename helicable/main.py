@@ -16,9 +16,12 @@ from helicable.screen import errors
 
 VERBS = (
     "cables", "show", "mesh", "homogenize", "loop", "stress", "tow", "check", "compare", "explain", "add", "next", "effects", "demo",
-    "verify", "strand-test",
+    "verify", "strand-test", "calibrate", "specimen",
 )  # fmt: skip
-FILES = {"next": "next_experiment", "strand-test": "strand_test"}  # where a verb's file and function are not named as the verb
+FILES = {
+    "next": "next_experiment",
+    "strand-test": "strand_test",
+}  # where a verb's file and function are not named as the verb
 
 
 def application(arguments: Sequence[str]) -> typer.Typer:

@@ -35,15 +35,15 @@ class AxialGrading:
 
     Examples
     --------
-    >>> heights = AxialGrading().heights(0.1823, 0.05)
+    >>> heights = AxialGrading(end_size=0.04).heights(0.1823, 0.05)
     >>> round(1e3 * heights[0], 3), round(1e3 * sum(heights), 6)
     (2.0, 182.3)
     """
 
-    end_size: float = 0.04
-    largest: float = 0.3
-    growth: float = 1.5
-    degree: int = 2
+    end_size: float = 0.08
+    largest: float = 1.0
+    growth: float = 2.5
+    degree: int = 4
 
     def __post_init__(self) -> None:
         if not (0 < self.end_size <= self.largest and np.isfinite(self.largest)):

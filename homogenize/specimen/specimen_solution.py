@@ -32,7 +32,8 @@ from homogenize.specimen.swept_operator import SweptOperator
 
 Progress = Callable[[float, str], None]
 BALANCE_LIMIT = 1e-2
-"""Largest allowed imbalance of forces, of moments over the length, and of work against energy, relative to the load's."""
+"""Largest allowed imbalance of forces, of moments over the length, and of work against energy, relative to the load's. A motion of
+the specimen as a whole is not a polynomial in the turning frame, so that forces balance to the error of the axial polynomials."""
 
 
 @dataclass(frozen=True)
@@ -168,7 +169,7 @@ class SpecimenSolution:
         )
         return tuple(
             Check(
-                name, value < BALANCE_LIMIT, f"{value / (BALANCE_LIMIT if name == 'residual' else 1):.1e} of the load"
+                name, f"{value / (BALANCE_LIMIT if name == 'residual' else 1):.1e} of the load", value < BALANCE_LIMIT
             )
             for name, value in found
         )
@@ -179,7 +180,7 @@ def solve_specimen(
     mesh: CrossSectionMesh,
     loads: Sequence[LoadCase],
     *,
-    tolerance: float = 1e-5,
+    tolerance: float = 1e-4,
     progress: Progress | None = None,
 ) -> SpecimenSolution:
     """Displacements of a specimen under loads at its end z = L, each by itself.

@@ -11,6 +11,7 @@ NAMES = (
     "helical-rod",
     "mcpt-1.9-3.3-3x35",
     "mcpt-1.9-3.3-3x95",
+    "paper-specimen-3x35",
     "sea-three-core",
     "spiral-strand-120",
     "strand-1x7-steel",
