@@ -149,6 +149,7 @@ def calibrate_inputs(
     most_runs: int = 6,
     agreement: float = 0.01,
     starts: int = 32,
+    first: Array | None = None,
     seed: int = 0,
     progress: Progress | None = None,
 ) -> InputCalibration:
@@ -165,7 +166,7 @@ def calibrate_inputs(
         What else decides the outputs of the full model (cable, mesh), part of the hash of a run.
     most_runs, agreement : int, float
         Full runs at most; largest |ln| between cheap and full model at which they agree.
-    starts, seed : of the search
+    starts, first, seed : of the search; one more place to start from, in its coordinates
     progress : callable, optional
 
     Raises
@@ -191,7 +192,7 @@ def calibrate_inputs(
         raise InputError(f"the model has no output {missing[0]}; take it out of the targets.")
     runs: list[FullRun] = []
     minima: list[Minimum] = []
-    x = (model.low + model.high) / 2
+    x = (model.low + model.high) / 2 if first is None else first
     for k in range(most_runs):
         tell(k / most_runs, f"search {k + 1}, {starts} starts")
         minima = multi_start(model.residual, model.low, model.high, count=starts, first=x, seed=seed)
