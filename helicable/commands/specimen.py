@@ -203,7 +203,8 @@ def _over_lengths(wanted: Specimen, mesh: CrossSectionMesh, lengths: list[float]
     ]
     table("Apparent E over the length", ("length", "E", "law", "E of the middle fifth"), rows, right=(1, 2, 3))
     say(
-        f"L/E = c + L/E_inf: c {1e9 * law.c:.4g} mm/MPa, E_inf {engineering(law.E_infinite, 'Pa')}, largest misfit {100 * law.misfit:.2g} %; "
+        f"L/E = c + L/E_inf: c {1e9 * law.c:.4g} mm/MPa, E_inf {engineering(law.E_infinite, 'Pa')}, "
+        f"largest misfit {100 * law.misfit:.2g} %; "
         f"the long cable by its cell: {engineering(section.E_free_twist, 'Pa')} free to twist, "
         f"{engineering(section.E_blocked_twist, 'Pa')} blocked. Half of E_inf at {law.half_length:.3g} m.\n"
     )

@@ -74,11 +74,13 @@ class EndMap:
     Attributes
     ----------
     A : (n, free) sparse; columns are orthonormal
+    free : number of free unknowns
     closed : whether no unknown of the section itself is free (fixed, or all in a rigid plate)
     rigid : (n, r) the plate's motions, orthonormal; no columns where there is no plate
     """
 
     A: sp.csr_array
+    free: int
     closed: bool
     rigid: FloatArray
 
@@ -95,9 +97,9 @@ def held_end(end: Held, system: SectionSystem, mesh: CrossSectionMesh) -> EndMap
     SpecError
         If a part is not there.
     """
-    n = system.pencil.E2.shape[0]
+    n = len(system.pencil.Z)
     gripped = gripped_unknowns(end.parts, system, mesh)
-    return EndMap(_identity(n, ~gripped), bool(gripped.all()), np.zeros((n, 0)))
+    return EndMap(_identity(n, ~gripped), int((~gripped).sum()), bool(gripped.all()), np.zeros((n, 0)))
 
 
 def loaded_end(end: Traction | Plate, system: SectionSystem, mesh: CrossSectionMesh) -> EndMap:
@@ -108,15 +110,15 @@ def loaded_end(end: Traction | Plate, system: SectionSystem, mesh: CrossSectionM
     SpecError
         If a part is not there.
     """
-    n = system.pencil.E2.shape[0]
+    n = len(system.pencil.Z)
     if isinstance(end, Traction):
         region_mask(end.parts, mesh)
-        return EndMap(_identity(n, np.ones(n, dtype=bool)), False, np.zeros((n, 0)))
+        return EndMap(_identity(n, np.ones(n, dtype=bool)), n, False, np.zeros((n, 0)))
     gripped = gripped_unknowns(end.parts, system, mesh)
     rigid = np.where(gripped[:, None], system.pencil.Z[:, list(end.free_motions)], 0.0)
     rigid, _ = np.linalg.qr(rigid)
     A = sp.csr_array(sp.hstack([_identity(n, ~gripped), sp.csr_array(rigid)]))
-    return EndMap(A, bool(gripped.all()), rigid)
+    return EndMap(A, int((~gripped).sum()) + rigid.shape[1], bool(gripped.all()), rigid)
 
 
 def region_mask(parts: Sequence[str], mesh: CrossSectionMesh) -> NDArray[np.bool_]:
@@ -141,7 +143,7 @@ def region_mask(parts: Sequence[str], mesh: CrossSectionMesh) -> NDArray[np.bool
 def gripped_unknowns(parts: Sequence[str], system: SectionSystem, mesh: CrossSectionMesh) -> NDArray[np.bool_]:
     """(n,) unknowns of the section that belong to the nodes of the parts."""
     if not parts:
-        return np.ones(system.pencil.E2.shape[0], dtype=bool)
+        return np.ones(len(system.pencil.Z), dtype=bool)
     inside = region_mask(parts, mesh)[system.field.region_of]
     nodal = np.zeros(system.field.unknowns, dtype=bool)
     nodal[(3 * np.unique(system.field.cells[:, inside])[:, None] + np.arange(3)).ravel()] = True

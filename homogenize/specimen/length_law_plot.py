@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from homogenize.specimen.length_law import LengthLaw
-from homogenize.specimen.shear_lag_plot import INK, SOFT, _saved
+from homogenize.specimen.shear_lag_plot import INK, SOFT, saved
 
 
 def draw_length_law(law: LengthLaw, E_cell: float, path: str | Path, dpi: int = 150) -> Path:
@@ -51,4 +51,4 @@ def draw_length_law(law: LengthLaw, E_cell: float, path: str | Path, dpi: int = 
     axes.set_title("A short specimen measures its end, a long one the cable", color=INK, fontsize=10, loc="left")
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(color="#e6e8eb", lw=0.6, which="major")
-    return _saved(figure, path, dpi)
+    return saved(figure, path, dpi)

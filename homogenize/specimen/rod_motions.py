@@ -84,7 +84,7 @@ class RodMotions:
         free[1:-1, : W.shape[1]] = True
         start = W.shape[1]
         for k, end in zip((0, -1), ends):
-            free[k, : W.shape[1]] = end.A.shape[1] == n and not end.rigid.shape[1]
+            free[k, : W.shape[1]] = end.free == n and not end.rigid.shape[1]
             free[k, start : start + end.rigid.shape[1]] = True
             start += end.rigid.shape[1]
         self.free = free

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -59,18 +61,19 @@ def draw_shear_lag(lag: ShearLag, kind_of: Mapping[str, str], path: str | Path, 
     )
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(color="#e6e8eb", lw=0.6)
-    return _saved(figure, path, dpi)
+    return saved(figure, path, dpi)
 
 
 def _apart(heights: list[float], least: float) -> list[float]:
     """Heights moved up where labels would lie on each other."""
     order, out = np.argsort(heights), list(heights)
-    for low, high in zip(order[:-1], order[1:]):
+    for low, high in itertools.pairwise(order):
         out[high] = max(out[high], out[low] + least)
     return out
 
 
-def _saved(figure, path: str | Path, dpi: int) -> Path:
+def saved(figure: Any, path: str | Path, dpi: int) -> Path:
+    """Write a figure, or say why it cannot be written."""
     target = Path(path)
     try:
         figure.savefig(target, dpi=dpi)

@@ -103,7 +103,7 @@ class SpecimenSolution:
     def unknowns(self) -> int:
         """Free displacement components."""
         n, m = self.operator.shape
-        return n * (m - 2) + sum(end.A.shape[1] for end in self.ends)
+        return n * (m - 2) + sum(end.free for end in self.ends)
 
     @cached_property
     def nodal(self) -> FloatArray:
@@ -245,7 +245,7 @@ def specimen_forces(
     loaded = region_mask(specimen.loaded.parts, mesh)
     angle = specimen.phase + mesh.twist_rate * specimen.length
     f = np.array([nodal_forces(load, system.field, loaded, angle) for load in loads]).T
-    F = np.zeros((system.pencil.E2.shape[0], len(axial.stations), len(loads)))
+    F = np.zeros((len(system.pencil.Z), len(axial.stations), len(loads)))
     F[:, -1] = f if system.T is None else system.T.T @ f
     return F
 

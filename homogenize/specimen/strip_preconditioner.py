@@ -74,7 +74,7 @@ class StripPreconditioner:
         """R with the end stations that take part projected on what may move there."""
         out = R
         for k, end in zip((0, -1), self.ends):
-            if not end.closed and end.A.shape[1] < R.shape[0]:
+            if not end.closed and end.free < R.shape[0]:
                 out = out.copy() if out is R else out
                 out[:, k] = end.project(R[:, k])
         return out

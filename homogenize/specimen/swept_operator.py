@@ -39,7 +39,7 @@ class SweptOperator:
     @property
     def shape(self) -> tuple[int, int]:
         """Section unknowns and stations."""
-        return self.pencil.E2.shape[0], len(self.axial.stations)
+        return len(self.pencil.Z), len(self.axial.stations)
 
     def apply(self, U: FloatArray, at: NDArray[np.int64] | None = None) -> FloatArray:
         """K U, shape (n, m, loads), of displacements U (n, m, loads); with `at` (s,) the rows of those stations only, (n, s, loads)."""
