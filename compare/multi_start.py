@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +42,8 @@ def sobol_starts(low: Array, high: Array, count: int, seed: int = 0) -> Array:
     """
     from scipy.stats import qmc  # slow to load, needed here only
 
-    drawn = qmc.Sobol(len(low), seed=seed).random_base2(max(0, int(np.ceil(np.log2(max(count, 1))))))[:count]
+    options: dict[str, Any] = {"seed": seed}  # newer scipy calls it rng and still takes this
+    drawn = qmc.Sobol(len(low), **options).random_base2(max(0, int(np.ceil(np.log2(max(count, 1))))))[:count]
     drawn[0] = 0.5
     return low + drawn * (high - low)
 
