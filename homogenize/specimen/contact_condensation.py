@@ -7,8 +7,8 @@ With springs k a on all jumps the matrix :math:`\tilde K = K + k a` is that of a
 .. math::
    j = j_0 + \tilde C\, q(j), \qquad q = k a\, j - a f(j), \qquad o = o_0 + \tilde V q ,
 
-C~ = (K~^-1) on the jumps, V~ the observed displacements per unit force on a jump, j_0 and o_0 the answer of the holding specimen to each load.
-One factor of K~ and one solve for each jump. q vanishes where a point is closed and sticks.
+C~ = (K~^-1) on the jumps, V~ the observed displacements per unit force on a jump, j_0 and o_0 the answer of the holding specimen
+to each load. One factor of K~ and one solve for each jump. q vanishes where a point is closed and sticks.
 """
 
 from __future__ import annotations

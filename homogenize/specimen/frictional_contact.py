@@ -7,8 +7,8 @@ With the opening g and the slip s = (s_a, s_b) of two parts (:mod:`homogenize.sl
    t = t^* \min(1,\; \mu p / |t^*|) .
 
 g_0 is the gap of the parts as drawn, negative for an interference; p_0 a grip that is there before the load and is in balance with
-stresses that are in the parts already (so the parts do not move until a load comes). An open point forgets its friction. k_n, k_t: stiffness of
-the interface; the limits are hard contact and stick.
+stresses that are in the parts already (so the parts do not move until a load comes). An open point forgets its friction.
+k_n, k_t: stiffness of the interface; the limits are hard contact and stick.
 
 Simo, Laursen, Comput. Struct. 42 (1992) 97-116, doi 10.1016/0045-7949(92)90540-G.
 """
@@ -57,8 +57,8 @@ class FrictionalContact:
         constants = (self.friction, self.grip, self.normal, self.tangential)
         if not all(np.isfinite(c) and c >= 0 for c in constants) or not np.isfinite(self.gap):
             raise SpecError(
-                f"friction {self.friction:g}, grip {self.grip:g} Pa and the stiffness {self.normal:g}, {self.tangential:g} Pa/m of a contact "
-                "must be zero or positive, and its gap finite."
+                f"friction {self.friction:g}, grip {self.grip:g} Pa and the stiffness {self.normal:g}, {self.tangential:g} Pa/m "
+                "of a contact must be zero or positive, and its gap finite."
             )
         if self.normal == 0 or self.tangential == 0:
             raise SpecError("a contact needs a stiffness above zero; 1e11 Pa/m is nearly hard.")

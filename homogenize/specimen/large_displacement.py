@@ -172,7 +172,7 @@ class _Newton:
             residuals.append(float(np.linalg.norm(self.out[self.free])) / (self.scale * share))
             _log.debug("share %g iteration %d imbalance %.2e", share, iteration, residuals[-1])
             if residuals[-1] <= TOLERANCE or _at_rounding(residuals):
-                return u, tuple(residuals)
+                return (u if self.wedges.smallest_volume(u) > 0 else None), tuple(residuals)
             lost = not np.isfinite(residuals[-1]) or (iteration > 3 and residuals[-1] > 1e4 * max(residuals[0], 1))
             if lost or iteration == MOST_ITERATIONS:
                 break
@@ -216,9 +216,14 @@ class _Newton:
         element = int(np.argmax((w.section.cells == node).any(axis=0)))
         name = w.regions[w.section.region_of[element]].name
         far = np.abs(w.fixed_components(u)).max()
+        what = (
+            "some element was turned inside out"
+            if residuals[-1] <= TOLERANCE
+            else f"the imbalance stayed at {residuals[-1]:.1e} of the load"
+        )
         return (
             f"large displacements were followed up to {100 * reached:.3g} % of the load (largest displacement "
-            f"{1e3 * far:.3g} mm) and no farther: at {100 * target:.3g} % the imbalance stayed at {residuals[-1]:.1e} of the load, "
+            f"{1e3 * far:.3g} mm) and no farther: at {100 * target:.3g} % {what}, "
             f"farthest off in {name} at z = {1e3 * w.planes[plane]:.3g} mm; take a smaller load, more layers there, or the "
             "neo-Hookean law for soft parts (St Venant-Kirchhoff loses its stiffness in strong compression)."
         )

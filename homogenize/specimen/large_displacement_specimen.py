@@ -1,10 +1,9 @@
 r"""A bonded specimen followed with large displacements: the same section, layers, ends and loads as the linear one.
 
-The linear tangent at rest is that of :mod:`homogenize.specimen.swept_operator`; its solver (coarse rods Q, strips B) preconditions every Newton
-step, :math:`M = Q + (I - Q K) B (I - K Q)`.
+The tangent at rest is that of :mod:`homogenize.specimen.swept_operator`. Small specimens share its factor; for large ones the solver of
+the linear specimen (coarse rods Q, strips B) preconditions every Newton step, :math:`M = Q + (I - Q K) B (I - K Q)`.
 
-What the second order is: with W3 the part of the energy that is of third order in the linear field u1,
-:math:`F u_2 = -3 W_3 / \,` (St Venant-Kirchhoff: W3 = int s : grad u^T grad u / 2), so that loads of both signs show it directly: their even part.
+Loads of both signs show what is of second order directly: the even part of the displacement.
 """
 
 from __future__ import annotations
@@ -29,6 +28,9 @@ from homogenize.specimen.swept_operator import SweptOperator
 from homogenize.specimen.wedge18 import Wedges
 
 Progress = Callable[[float, str], None]
+
+DIRECT = 60_000
+"""Unknowns up to which the tangent at rest is factored and shared by all loads; above that the linear specimen's solver serves."""
 
 
 @dataclass(frozen=True)
@@ -99,18 +101,23 @@ def follow_specimen(
     wedges = Wedges(system.field, mesh.regions, axis, volume_strain, tuple(neo_hookean))
     operator = SweptOperator(system.pencil, axis)
     ends = held_end(specimen.held, system, mesh), loaded_end(specimen.loaded, system, mesh)
-    solver = BalancedSolver(operator, rod_basis(system, mesh, 2 * float(np.hypot(*mesh.points.T).max())), ends)
+    small = (len(axis.stations) - 1) * operator.shape[0] <= DIRECT
+    solver = (
+        None
+        if small
+        else BalancedSolver(operator, rod_basis(system, mesh, 2 * float(np.hypot(*mesh.points.T).max())), ends)
+    )
     forces = specimen_forces(specimen, mesh, system, axis, list(loads))
-    found = []
+    inverse = None if solver is None else _balanced(solver)
+    found: list[FollowedLoad] = []
     for i, load in enumerate(loads):
 
         def tell(fraction: float, sentence: str, i: int = i, load: LoadCase = load) -> None:
             if progress:
                 progress((i + fraction) / len(loads), f"{load.name}: {sentence}")
 
-        path = large_displacement(
-            wedges, forces[:, :, i].T.ravel(), shares, preconditioner=_balanced(solver), progress=tell
-        )
+        path = large_displacement(wedges, forces[:, :, i].T.ravel(), shares, preconditioner=inverse, progress=tell)
+        inverse = path.preconditioner
         found.append(_followed(wedges, load, specimen.phase, path))
     return tuple(found)
 

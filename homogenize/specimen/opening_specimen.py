@@ -1,8 +1,9 @@
 r"""A specimen whose parts open and rub: one path of loads after another from the same initial state.
 
-Small displacements. At each load the jumps solve :math:`G(j) = j - s j_0 - \tilde C q(j) = 0` (:mod:`homogenize.specimen.contact_condensation`)
-by a semismooth Newton method: only points that are open or slip have a q, so that its matrix :math:`I - \tilde C\, dq/dj` is reduced to
-these points. Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375, doi 10.1016/0045-7825(91)90022-X.
+Small displacements. At each load the jumps solve :math:`G(j) = j - s j_0 - \tilde C q(j) = 0`
+(:mod:`homogenize.specimen.contact_condensation`) by a semismooth Newton method: only points that are open or slip have a q, so that
+its matrix :math:`I - \tilde C\, dq/dj` is reduced to these points.
+Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375, doi 10.1016/0045-7825(91)90022-X.
 
 The initial state comes first: an interference is let go without a load, a grip is in balance already. Where an observed displacement under
 +F and -F is (odd + even) and (-odd + even) of it, the even part is what a linear specimen without an initial state does not have.
@@ -14,6 +15,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from geometry.errors import ConvergenceError, SpecError
 from homogenize.specimen.contact_condensation import ContactSpecimen, FloatArray
@@ -216,7 +218,7 @@ def _newton(
     return None, error
 
 
-def _step(C: FloatArray, G: FloatArray, slope: FloatArray, loose: FloatArray) -> FloatArray:
+def _step(C: FloatArray, G: FloatArray, slope: FloatArray, loose: NDArray[np.int64]) -> FloatArray:
     """-(I - C dq)^-1 G with dq blocks (k, 3, 3) at the loose points."""
     if not len(loose):
         return -G

@@ -3,7 +3,9 @@ r"""The 18-node wedge swept along the helix: a quadratic triangle of the section
 In the frame that turns with the cable the displacement is :math:`u(X, Y, z) = \sum_k M_k(z)\, u_k(X, Y)`, u_k a field of the section
 (:mod:`homogenize.section_field`) in rotating components. Its gradient, column by column,
 
-.. math::  H = \big[\partial_X u,\ \partial_Y u,\ \partial_z u + S u\big], \qquad S u = \tau_0 (Y \partial_X - X \partial_Y) u + \tau_0 e_z \times u ,
+.. math::
+   H = \big[\partial_X u,\ \partial_Y u,\ \partial_z u + S u\big], \qquad
+   S u = \tau_0 (Y \partial_X - X \partial_Y) u + \tau_0 e_z \times u ,
 
 is exact for the helical shape, and its operators are the same in every layer. So force and tangent of an element are made from those of
 the section at the Gauss points of the axis: with P = [A_s, A_z] (the operators on u and on du/dz), stress T and tangent D per H,
@@ -128,6 +130,11 @@ class Wedges:
         H = np.matmul(self.operators.reshape(e, q * 9, 36), self.local(u, layer))
         return H.reshape(e, q, 9, -1).transpose(0, 1, 3, 2)
 
+    def smallest_volume(self, u: FloatArray) -> float:
+        """Smallest det F at any point; not positive where an element is turned inside out."""
+        layers = (self.gradient(u, layer).reshape(-1, 3, 3) for layer in range(self.axis.layers))
+        return min(float(np.linalg.det(H + np.eye(3)).min()) for H in layers)
+
     def energy(self, u: FloatArray) -> float:
         """Strain energy [J]; nan where a neo-Hookean element is turned inside out."""
         total = 0.0
@@ -149,7 +156,7 @@ class Wedges:
     def face_area(self) -> FloatArray:
         """Share of each node of the section in the area, (n,) [m^2]: the nodal forces of a unit traction."""
         s = self.section
-        return np.bincount(s.cells.T.ravel(), (s.weight @ s.shape.T).ravel(), s.nodes.shape[1])
+        return np.asarray(np.bincount(s.cells.T.ravel(), (s.weight @ s.shape.T).ravel(), s.nodes.shape[1]), dtype=float)
 
     def turned(self, vectors: FloatArray, z: FloatArray | float, back: bool = False) -> FloatArray:
         """Rotating components of vectors (..., 3) given in fixed axes at heights z (...); with `back` the other way."""

@@ -1,0 +1,208 @@
+r"""The ladder: the published specimen's numbers from the long cable up, one effect added at a time.
+
+1. long cable, bonded, twist blocked - 2. twist released - 3. finite specimen, rigid plate - 4. load through the end-section (uniform
+traction) - 5. conductors on an elastic interface - 6. cores that open and rub - 7. large displacements (bonded again).
+
+For rungs 1 and 2 a specimen of length L is a rod of the cell's stiffness, fixed at one end:
+
+.. math::  u_z = F L \bar F_{33}, \qquad u_x = F (L^3 \bar F_{44} / 3 + L \bar F_{11}),
+
+E = 1 / (A F_33) (twist released) or C_33 / A (blocked), G = 1 / (A F_11) of the pitch-averaged compliance. All others are moduli by volume
+averages, formula (3) of Ge et al., PLoS ONE 18(2) e0281136 (2023), and largest displacements along the force.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, fields, replace
+from pathlib import Path
+
+import numpy as np
+
+from geometry.cell_mesh import CrossSectionMesh
+from geometry.errors import InputError
+from homogenize.elastic_interface import Elastic
+from homogenize.helical_cell import solve_helical_cell
+from homogenize.interface_choice import Interfaces
+from homogenize.section_stiffness import pitch_average
+from homogenize.specimen.apparent_modulus import apparent_moduli
+from homogenize.specimen.contact_condensation import contact_specimen
+from homogenize.specimen.end_condition import Plate, Traction
+from homogenize.specimen.frictional_contact import FrictionalContact
+from homogenize.specimen.large_displacement_specimen import follow_specimen
+from homogenize.specimen.load_case import LoadCase
+from homogenize.specimen.opening_specimen import contact_path, initial_state
+from homogenize.specimen.specimen_solution import Specimen, solve_specimen
+from homogenize.specimen.stress_strain_curve import stress_strain_curve
+
+Progress = Callable[[float, str], None]
+
+TENSION = 2000.0
+SHEAR = 500.0
+_LOADS = (LoadCase("tension", TENSION), LoadCase("shear", SHEAR, "x"), LoadCase("shear", SHEAR, "y"))
+
+
+@dataclass(frozen=True)
+class Rung:
+    """The numbers of one step: moduli [Pa], largest displacements along the force [m], and what the step is."""
+
+    name: str
+    E: float
+    G_yoz: float
+    G_xoz: float
+    u_z: float
+    u_plus_x: float
+    u_minus_x: float
+    u_plus_y: float
+    u_minus_y: float
+    remark: str = ""
+
+    def numbers(self) -> dict[str, float]:
+        """All but name and remark."""
+        return {k: v for k, v in asdict(self).items() if isinstance(v, float)}
+
+    def misfit(self, other: Rung) -> float:
+        """Root mean square of the logarithms of the ratios to another rung."""
+        ratios = [np.log(a / b) for a, b in zip(self.numbers().values(), other.numbers().values())]
+        return float(np.sqrt(np.mean(np.square(ratios))))
+
+
+PUBLISHED = Rung("published", 142e6, 53e6, 45e6, 4.1e-3, 6.95e-3, 7.96e-3, 7.71e-3, 7.02e-3, "Ge et al. 2023")
+
+
+def long_cable_rungs(mesh: CrossSectionMesh, length: float) -> tuple[Rung, Rung]:
+    """A rod of the bonded cell's stiffness, twist blocked and released."""
+    cell = solve_helical_cell(mesh)
+    section = pitch_average(cell.stiffness)
+    A, F = cell.stiffness.area, np.linalg.inv(section.C)
+    across = [SHEAR * (length**3 * F[3 + k, 3 + k] / 3 + length * F[k, k]) for k in (1, 0)]
+    side = {"G_yoz": 1 / (A * F[0, 0]), "G_xoz": 1 / (A * F[1, 1]), "u_plus_x": across[0], "u_minus_x": across[0]}
+    side |= {"u_plus_y": across[1], "u_minus_y": across[1]}
+    found = []
+    for name, EA in (("long cable, bonded", section.C[2, 2]), ("twist released", 1 / F[2, 2])):
+        found.append(
+            Rung(name=name, E=float(EA / A), u_z=float(TENSION * length / EA), **{k: float(v) for k, v in side.items()})
+        )
+    return found[0], found[1]
+
+
+def linear_rung(name: str, specimen: Specimen, mesh: CrossSectionMesh, remark: str = "") -> Rung:
+    """A linear specimen: both signs of a force give the same."""
+    z, x, y = apparent_moduli(solve_specimen(specimen, mesh, _LOADS))
+    return Rung(name, z.modulus, x.modulus, y.modulus, z.u_max, x.u_max, x.u_max, y.u_max, y.u_max, remark)
+
+
+def large_displacement_rung(
+    name: str,
+    specimen: Specimen,
+    mesh: CrossSectionMesh,
+    shares: Sequence[float] = (0.25, 0.5, 0.75, 1.0),
+    remark: str = "",
+) -> Rung:
+    """Bonded, followed with large displacements; moduli are slopes of the line fitted to all shares, G the mean of both signs."""
+    slopes, largest = [], []
+    loads = (_LOADS[0], *(replace(load, size=s * load.size) for load in _LOADS[1:] for s in (1, -1)))
+    for load in loads:
+        (followed,) = follow_specimen(specimen, mesh, [load], shares=tuple(shares))
+        area = followed.path.wedges.section.area
+        stress = followed.shares * load.size / area
+        slopes.append(stress_strain_curve([0.0, *(stress / followed.apparent_modulus(area))], [0.0, *stress]).slope)
+        largest.append(float(followed.largest[-1]))
+    E, *G = slopes
+    return Rung(name, E, 0.5 * (G[0] + G[1]), 0.5 * (G[2] + G[3]), *largest, remark=remark)
+
+
+def opening_rung(
+    name: str,
+    specimen: Specimen,
+    mesh: CrossSectionMesh,
+    law: FrictionalContact,
+    interface: str = "core-filler",
+    progress: Progress | None = None,
+    remark: str = "",
+) -> Rung:
+    """Parts that open and rub on one interface, small displacements; every load from the same initial state, G the mean of both signs."""
+    contacts = contact_specimen(replace(specimen, interface=Interfaces({interface: law})), mesh, _LOADS, progress)
+    start = initial_state(contacts)
+    area = float(contacts.face_weight.sum())
+    slopes, largest = [], []
+    for load, sign in ((0, 1), (1, 1), (1, -1), (2, 1), (2, -1)):
+        end = contact_path(contacts, load, (0.5 * sign, float(sign)), start)[-1]
+        axis = (2, 0, 1)[load]
+        slopes.append(sign * abs(_LOADS[load].size) / area / (end.strain[load] - start.strain[load]))
+        largest.append(float((sign * end.face[:, axis]).max()))
+    E, *G = (float(s) for s in slopes)
+    return Rung(name, E, 0.5 * (G[0] + G[1]), 0.5 * (G[2] + G[3]), *largest, remark=remark)
+
+
+def ladder(
+    mesh: CrossSectionMesh,
+    specimen: Specimen,
+    *,
+    stiffness: float = 1e10,
+    contact: FrictionalContact | None = None,
+    contact_mesh: CrossSectionMesh | None = None,
+    contact_specimen_grading: Specimen | None = None,
+    large: bool = True,
+    progress: Progress | None = None,
+) -> tuple[Rung, ...]:
+    """All rungs.
+
+    Parameters
+    ----------
+    mesh : CrossSectionMesh
+    specimen : Specimen
+        Length, phase and grading are taken from it.
+    stiffness : of the conductors' interface [Pa/m]
+    contact : law of the cores' interface on rung 6; the rung is left out if not given
+    contact_mesh, contact_specimen_grading : a coarser section and a specimen with a coarser grading for rung 6, whose matrix is dense
+    large : whether to climb rung 7
+    """
+    tell = progress or (lambda fraction, sentence: None)
+    end = replace(specimen, loaded=Traction(), interface="bonded")
+    tell(0.0, "the long cable")
+    rungs = list(long_cable_rungs(mesh, specimen.length))
+    tell(0.1, "the specimen with a rigid plate")
+    rungs.append(linear_rung("finite, rigid plate", replace(end, loaded=Plate()), mesh))
+    tell(0.2, "the specimen with a traction")
+    rungs.append(linear_rung("traction on the end-section", end, mesh))
+    tell(0.3, "the elastic interface")
+    elastic = Interfaces({"conductor-insulation": Elastic(stiffness)})
+    rungs.append(linear_rung("elastic interface", replace(end, interface=elastic), mesh, f"{stiffness / 1e9:g} MPa/mm"))
+    if contact is not None:
+        tell(0.4, "opening contacts")
+        coarse = contact_specimen_grading or end
+        rungs.append(
+            opening_rung("opening, rubbing cores", coarse, contact_mesh or mesh, contact, remark=contact.describe())
+        )
+    if large:
+        tell(0.7, "large displacements")
+        rungs.append(large_displacement_rung("large displacements", end, mesh, remark="bonded"))
+    tell(1.0, "the ladder is climbed")
+    return tuple(rungs)
+
+
+def write_ladder(rungs: Sequence[Rung], path: Path, about: str) -> None:
+    """Write a record: what it is about, and the rungs."""
+    path.write_text(
+        json.dumps({"about": about, "rungs": [asdict(r) for r in rungs]}, indent=1) + "\n", encoding="utf-8"
+    )
+
+
+def read_ladder(path: Path) -> tuple[str, tuple[Rung, ...]]:
+    """What a record is about, and its rungs.
+
+    Raises
+    ------
+    InputError
+        If the file is not a record of a ladder.
+    """
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+        return str(found["about"]), tuple(Rung(**r) for r in found["rungs"])
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        names = ", ".join(f.name for f in fields(Rung))
+        raise InputError(
+            f"{path} is not a record of a ladder ({error}); it needs about and rungs with {names}."
+        ) from None
