@@ -188,7 +188,7 @@ def show_published(rows: list[PublishedRow], length: float) -> None:
     if length == LENGTH:
         say(f"- the length of {1e3 * LENGTH:.1f} mm is fitted, the source does not state one")
     say(
-        "- a linear specimen deflects alike in +X and -X; the published 6.95 and 7.96 mm differ by a part that does not turn with the force\n"
+        "- a linear specimen deflects alike in +X and -X; the published 6.95 and 7.96 mm differ by a part that does not turn with it\n"
     )
 
 

@@ -85,7 +85,9 @@ def _modulus(solution: SpecimenSolution, k: int, strain: FloatArray, stress: Flo
 def node_weights(field: SectionField) -> FloatArray:
     """(nodes,) integrals of the shape functions over the section [m^2]."""
     local = np.einsum("eq,kq->ke", field.weight, field.shape)
-    return np.bincount(field.cells.ravel(), local.ravel(), field.nodes.shape[1])
+    weights: FloatArray = np.zeros(field.nodes.shape[1])
+    np.add.at(weights, field.cells.ravel(), local.ravel())
+    return weights
 
 
 def end_displacement(solution: SpecimenSolution) -> FloatArray:

@@ -168,13 +168,13 @@ def read_end(text: str) -> Traction | Plate:
     word, _, rest = (part.strip() for part in text.partition(":"))
     details = [d.strip() for d in rest.split(",") if d.strip()]
     parts = tuple(p.strip() for d in details if d not in ("no-tilt", "no-twist") for p in d.split("+"))
-    free = {"tilt": "no-tilt" not in details, "twist": "no-twist" not in details}
-    if word in ("uniform", "traction") and all(free.values()) and bool(parts) == (word == "traction"):
+    tilt, twist = "no-tilt" not in details, "no-twist" not in details
+    if word in ("uniform", "traction") and tilt and twist and bool(parts) == (word == "traction"):
         return Traction(parts)
     if word == "plate" and not parts:
-        return Plate(**free)
+        return Plate(tilt, twist)
     if word == "grip":
-        return Plate(parts=parts or ("conductor",), **free)
+        return Plate(tilt, twist, parts or ("conductor",))
     raise SpecError(
         f'the loaded end "{text}" is not known; choose uniform, traction:PART+PART, plate, plate:no-tilt,no-twist or grip:PART,no-twist.'
     )
