@@ -1,7 +1,7 @@
-"""The ladder of the published specimen, computed once and kept: `python -m benchmarks.ladder` writes benchmarks/ladder.json and the figure.
+"""The ladder of the published specimen, computed once and kept: `python -m benchmarks.ladder` writes benchmarks/ladder.json and a figure.
 
-With `--contact` the rung of opening, rubbing cores is climbed too. Its matrix is dense, three columns for each interface node and station: it
-needs a section of some 60 interface nodes, far fewer than the gmsh mesh of this cable has (200), and is refused on that mesh for now.
+With `--contact` the rung of opening, rubbing cores is climbed too. Its matrix is dense, three columns for each interface node and
+station: it needs some 60 interface nodes, far fewer than the gmsh mesh of this cable has (200), and is refused on that mesh for now.
 """
 
 from __future__ import annotations
