@@ -76,14 +76,11 @@ def long_cable_rungs(mesh: CrossSectionMesh, length: float) -> tuple[Rung, Rung]
     cell = solve_helical_cell(mesh)
     section = pitch_average(cell.stiffness)
     A, F = cell.stiffness.area, np.linalg.inv(section.C)
-    across = [SHEAR * (length**3 * F[3 + k, 3 + k] / 3 + length * F[k, k]) for k in (1, 0)]
-    side = {"G_yoz": 1 / (A * F[0, 0]), "G_xoz": 1 / (A * F[1, 1]), "u_plus_x": across[0], "u_minus_x": across[0]}
-    side |= {"u_plus_y": across[1], "u_minus_y": across[1]}
+    x, y = (float(SHEAR * (length**3 * F[3 + k, 3 + k] / 3 + length * F[1 - k, 1 - k])) for k in (1, 0))
+    G = float(1 / (A * F[0, 0])), float(1 / (A * F[1, 1]))
     found = []
     for name, EA in (("long cable, bonded", section.C[2, 2]), ("twist released", 1 / F[2, 2])):
-        found.append(
-            Rung(name=name, E=float(EA / A), u_z=float(TENSION * length / EA), **{k: float(v) for k, v in side.items()})
-        )
+        found.append(Rung(name, float(EA / A), *G, float(TENSION * length / EA), x, x, y, y))
     return found[0], found[1]
 
 
