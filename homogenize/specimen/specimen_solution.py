@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -31,6 +31,8 @@ from homogenize.specimen.rod_motions import rod_basis
 from homogenize.specimen.swept_operator import SweptOperator
 
 Progress = Callable[[float, str], None]
+MOST_TURN = 0.32
+"""Angle [rad] by which the section turns in one layer, at most, per degree of its polynomials."""
 BALANCE_LIMIT = 1e-2
 """Largest allowed imbalance of forces, of moments over the length, and of work against energy, relative to the load's. A motion of
 the specimen as a whole is not a polynomial in the turning frame, so that forces balance to the error of the axial polynomials."""
@@ -233,9 +235,13 @@ def solve_specimen(
 
 
 def specimen_axis(specimen: Specimen, mesh: CrossSectionMesh) -> AxialBasis:
-    """The layers of a specimen, graded by the diameter of its mesh."""
+    """The layers of a specimen, graded by the diameter of its mesh, and no thicker than the lay allows."""
     diameter = 2 * float(np.hypot(*mesh.points.T).max())
-    return specimen.grading.basis(specimen.length, diameter)
+    grading, turning = specimen.grading, abs(mesh.twist_rate) * diameter
+    if isinstance(grading, AxialGrading) and turning * grading.largest > MOST_TURN * grading.degree:
+        largest = MOST_TURN * grading.degree / turning
+        grading = replace(grading, largest=largest, end_size=min(grading.end_size, largest))
+    return grading.basis(specimen.length, diameter)
 
 
 def specimen_forces(
