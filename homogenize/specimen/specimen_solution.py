@@ -31,7 +31,7 @@ from homogenize.specimen.rod_motions import rod_basis
 from homogenize.specimen.swept_operator import SweptOperator
 
 Progress = Callable[[float, str], None]
-MOST_TURN = 0.32
+MOST_TURN = 0.25
 """Angle [rad] by which the section turns in one layer, at most, per degree of its polynomials."""
 BALANCE_LIMIT = 1e-2
 """Largest allowed imbalance of forces, of moments over the length, and of work against energy, relative to the load's. A motion of
