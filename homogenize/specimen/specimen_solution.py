@@ -204,7 +204,7 @@ def solve_specimen(
         If the solver does not reach the tolerance or the solution is not in balance.
     """
     if specimen.large_displacement:
-        raise SpecError("large displacements of a specimen are not followed here; leave large_displacement out.")
+        raise SpecError("solve_specimen is linear; follow_specimen follows a load with large displacements.")
     if not loads:
         raise SpecError("a specimen needs at least one load.")
     tell = progress or (lambda fraction, sentence: None)
