@@ -3,18 +3,22 @@
 Ge M. et al., PLoS ONE 18(2) e0281136 (2023), doi 10.1371/journal.pone.0281136: moduli are slopes of the average stress-strain lines,
 displacements the largest of each case. The length and the drawing of the specimen are not published. The pairing of the +-X tests with
 the plane yoz is the source's.
+
+A cable NAME whose file has no table [specimen] is represented by the cable NAME-specimen, where one ships: its constructed section with
+the inputs that are not published calibrated to these numbers.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from geometry import Cable, read_cable
+from geometry.cable_file import cable_files
 from helicable.published import G_XOZ, G_YOZ, E
 from homogenize.specimen import LoadCase
 from homogenize.specimen.apparent_modulus import ApparentModulus
 
-LENGTH = 0.1823
-"""Length [m] that was fitted to the published numbers; not published itself."""
+SUFFIX = "-specimen"
 LOADS = (
     LoadCase("tension", 2000.0),
     LoadCase("shear", 500.0, "x"),
@@ -23,6 +27,24 @@ LOADS = (
     LoadCase("shear", -500.0, "y"),
 )
 DISPLACEMENTS = {"tension": 4.1e-3, "shear +x": 6.95e-3, "shear -x": 7.96e-3, "shear +y": 7.71e-3, "shear -y": 7.02e-3}
+
+
+def specimen_cable(name: str) -> tuple[Cable, str]:
+    """The cable whose specimen stands for the published test of `name`, and a sentence that says which; "" where it is the cable itself.
+
+    Examples
+    --------
+    >>> specimen_cable("mcpt-1.9-3.3-3x35")[0].name
+    'mcpt-1.9-3.3-3x35-specimen'
+    """
+    cable = read_cable(name)
+    other = f"{name}{SUFFIX}"
+    if cable.specimen is not None or other not in cable_files():
+        return cable, ""
+    return read_cable(other), (
+        f"{name} is represented by {other}: the section of the published specimen is not known; this one is constructed, and what is not "
+        "published in it was calibrated to these very numbers, each inside its range"
+    )
 
 
 @dataclass(frozen=True)

@@ -40,6 +40,10 @@ def calibrate(
     snapshots: Annotated[int, typer.Option(help="Solutions in the cheap model.")] = 10,
     starts: Annotated[int, typer.Option(help="Starts of each search.")] = 16,
     size: SizeOption = None,
+    coarse: Annotated[
+        str | None,
+        typer.Option("--coarse", metavar="SIZE", help="Element size of the cheap model; as the full one if not given."),
+    ] = None,
     json: JsonOption = None,
 ) -> None:
     """Find the assumed inputs of a finite specimen that bring it to targets, and what the targets fix of them.
@@ -52,10 +56,11 @@ def calibrate(
     if resume and out is None:
         raise SpecError("--resume needs --out, the folder of the run that was stopped.")
     element = None if size is None else read_quantity(size, "m", "--size")
-    case = read_case(cable, read_targets(targets), element, snapshots)
+    cheap_element = None if coarse is None else read_quantity(coarse, "m", "--coarse")
+    case = read_case(cable, read_targets(targets), element, snapshots, cheap_element)
     store = EvaluationStore(None if out is None else folder(out) / "finished-runs.jsonl", resume)
     with progress("calibrating") as tell:
-        found, cheap = calibrate_case(case, store, runs, starts, tell)
+        found, cheap = calibrate_case(case, store, runs, starts, tell, None if out is None else out / "snapshots")
     show_calibration(found)
     record = calibration_record(case, found, cheap)
     write_json(json, record)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -9,11 +10,14 @@ import typer
 
 from geometry import Cable, CrossSectionMesh, read_cable
 from geometry.errors import SpecError
+from geometry.specimen_case import SpecimenCase
 from geometry.units import read_quantity
 from helicable.interface_words import read_interface
+from helicable.opening_words import read_opening
 from helicable.options import CableArgument, JsonOption, OutOption, SizeOption
-from helicable.published_specimen import LENGTH, LOADS, PublishedRow, published_rows
+from helicable.published_specimen import LOADS, PublishedRow, published_rows, specimen_cable
 from helicable.screen import engineering, folder, progress, say, table, write_json
+from helicable.specimen_steps import is_opening, run_in_steps
 from homogenize import solve_helical_cell
 from homogenize.specimen import (
     Held,
@@ -29,6 +33,8 @@ from homogenize.specimen.gauge_length import gauge_modulus
 from homogenize.specimen.length_law import LengthLaw, moduli_over_length
 from homogenize.specimen.specimen_mesh import specimen_mesh
 
+LENGTH = 0.1823
+"""Of a specimen [m] if neither the options nor the cable file give one."""
 SIZES = {
     "tension": ("2000 N", "N"),
     "shear": ("500 N", "N"),
@@ -40,7 +46,10 @@ SIZES = {
 
 def specimen(
     cable: CableArgument,
-    length: Annotated[str, typer.Option(metavar="LENGTH", help="Of the specimen.")] = "182.3 mm",
+    length: Annotated[
+        str | None,
+        typer.Option(metavar="LENGTH", help="Of the specimen; the cable file's [specimen], or 182.3 mm, if not given."),
+    ] = None,
     load: Annotated[
         str,
         typer.Option(help="`tension`, `shear`, `bending`, `torsion`, several with commas; direction as in `shear:-y`."),
@@ -49,22 +58,31 @@ def specimen(
         str | None, typer.Option(metavar="SIZE", help="Of the load: 2000 N, 500 N across, 10 N m if not given.")
     ] = None,
     ends: Annotated[
-        str,
+        str | None,
         typer.Option(
             help="The loaded end: `uniform`, `traction:sheath+interstices`, `plate`, `plate:no-tilt,no-twist`, `grip:conductor`."
         ),
-    ] = "uniform",
+    ] = None,
     held: Annotated[
-        str, typer.Option(help="The other end: `fixed`, or `grip:conductor` for the named parts.")
-    ] = "fixed",
-    interface: Annotated[str, typer.Option(help="As in `helicable homogenize`.")] = "bonded",
+        str | None, typer.Option(help="The other end: `fixed`, or `grip:conductor` for the named parts.")
+    ] = None,
+    interface: Annotated[
+        str | None,
+        typer.Option(
+            help="As in `helicable homogenize`, or opening contact, `core-filler=opening:GAP+coulomb:0.3`; bonded if not given."
+        ),
+    ] = None,
+    large_displacement: Annotated[
+        bool, typer.Option("--large-displacement", help="Follow the load in steps with large displacements; bonded.")
+    ] = False,
+    steps: Annotated[int, typer.Option(help="Load steps, with large displacements or opening contact.")] = 4,
     lengths: Annotated[
         str | None,
         typer.Option(metavar="LIST", help='Apparent E over several lengths, such as "60 mm, 120 mm, 400 mm".'),
     ] = None,
     phase: Annotated[
-        str, typer.Option(help="Angle by which the drawn section stands turned at the held end.")
-    ] = "0 deg",
+        str | None, typer.Option(help="Angle by which the drawn section stands turned at the held end; 0 if not given.")
+    ] = None,
     published: Annotated[bool, typer.Option("--published", help="Run the published load cases and compare.")] = False,
     size: SizeOption = None,
     json: JsonOption = None,
@@ -74,34 +92,62 @@ def specimen(
 
     Example: `helicable specimen paper-specimen-3x35 --length 182.3mm --load tension,shear:x --out specimen`
     """
-    wanted = Specimen(
-        length=read_quantity(length, "m", "--length"),
-        loaded=read_end(ends),
-        held=_held(held),
-        interface=read_interface(interface),
-        phase=read_quantity(phase, "rad", "--phase"),
-    )
+    made, substitute = specimen_cable(cable) if published else (read_cable(cable), "")
+    wanted = wanted_specimen(made, length, phase, ends, held, interface)
     loads = LOADS if published else _loads(load, force)
     several = None if lengths is None else [read_quantity(part, "m", "--lengths") for part in lengths.split(",")]
-    made = read_cable(cable)
-    mesh = specimen_mesh(made, None if size is None else read_quantity(size, "m", "--size"))
+    edge = None if size is None else read_quantity(size, "m", "--size")
+    if large_displacement or is_opening(wanted.interface):
+        if several is not None:
+            raise SpecError("--lengths is for linear specimens; leave --large-displacement and opening contacts out.")
+        wanted = replace(wanted, large_displacement=large_displacement)
+        found, record = run_in_steps(made, wanted, loads, edge, steps)
+        record |= _beside_published(found, made, substitute) if published else {}
+        write_json(json, record)
+        if out is not None:
+            write_json(folder(out) / "specimen.json", record)
+        return
+    mesh = specimen_mesh(made, edge)
     with progress("finite specimen") as tell:
         solution = solve_specimen(wanted, mesh, loads, progress=tell)
     found = apparent_moduli(solution)
     show_specimen(made, solution, found)
     record = specimen_record(made, solution, found)
     if published:
-        rows = published_rows(found)
-        show_published(rows, wanted.length)
-        record["published"] = {
-            r.quantity: {"published": r.published, "computed": r.computed, "ratio": r.ratio} for r in rows
-        }
+        record |= _beside_published(found, made, substitute)
     law = None
     if several is not None:
         law, record["lengths"] = _over_lengths(wanted, mesh, several)
     write_json(json, record)
     if out is not None:
         _draw(folder(out), made, solution, law, record)
+
+
+def _beside_published(found: tuple[ApparentModulus, ...], cable: Cable, substitute: str) -> dict[str, Any]:
+    """Print the table beside the published numbers; its part of the record."""
+    rows = published_rows(found)
+    notes = published_notes(cable, substitute)
+    show_published(rows, notes)
+    shown = {
+        r.quantity: {"published": r.published, "computed": r.computed, "ratio": r.ratio, "unit": r.unit} for r in rows
+    }
+    return {"published": shown, "published_notes": notes}
+
+
+def wanted_specimen(
+    cable: Cable, length: str | None, phase: str | None, ends: str | None, held: str | None, interface: str | None
+) -> Specimen:
+    """The specimen of the options; what they leave open is that of the cable file, or a bonded one of 182.3 mm with uniform traction."""
+    case = cable.specimen or SpecimenCase(LENGTH)
+    return Specimen(
+        length=case.length if length is None else read_quantity(length, "m", "--length"),
+        loaded=read_end(case.loaded if ends is None else ends),
+        held=_held(case.held if held is None else held),
+        interface=read_interface(case.interface, "specimen.interface")
+        if interface is None
+        else read_opening(interface) or read_interface(interface),
+        phase=case.phase if phase is None else read_quantity(phase, "rad", "--phase"),
+    )
 
 
 def _held(text: str) -> Held:
@@ -177,7 +223,18 @@ def specimen_notes(solution: SpecimenSolution, found: tuple[ApparentModulus, ...
     return notes
 
 
-def show_published(rows: list[PublishedRow], length: float) -> None:
+def published_notes(cable: Cable, substitute: str) -> list[str]:
+    """What the comparison with the published numbers is worth."""
+    notes = [substitute] if substitute else []
+    if cable.specimen is None:
+        notes.append("section and length are not those of the published specimen, which are not known")
+    notes.append(
+        "a linear specimen deflects alike in +X and -X; the published 6.95 and 7.96 mm differ by a part that does not turn with the load"
+    )
+    return notes
+
+
+def show_published(rows: list[PublishedRow], notes: list[str]) -> None:
     """Print published, computed and ratio."""
     shown = [
         (r.quantity, f"{r.published * scale:.2f} {unit}", f"{r.computed * scale:.2f} {unit}", f"{r.ratio:.3f}")
@@ -185,11 +242,9 @@ def show_published(rows: list[PublishedRow], length: float) -> None:
         for scale, unit in [(1e-6, "MPa") if r.unit == "Pa" else (1e3, "mm")]
     ]
     table("Beside the published load cases", ("", "published", "computed", "ratio"), shown, right=(1, 2, 3))
-    if length == LENGTH:
-        say(f"- the length of {1e3 * LENGTH:.1f} mm is fitted, the source does not state one")
-    say(
-        "- a linear specimen deflects alike in +X and -X; the published 6.95 and 7.96 mm differ by a part that does not turn with it\n"
-    )
+    for note in notes:
+        say(f"- {note}")
+    say("")
 
 
 def _over_lengths(wanted: Specimen, mesh: CrossSectionMesh, lengths: list[float]) -> tuple[LengthLaw, dict[str, Any]]:

@@ -28,6 +28,7 @@ from geometry.errors import SpecError
 from homogenize.section_field import FloatArray, SectionField
 from homogenize.section_system import section_system
 from homogenize.specimen.axial_basis import AxialBasis
+from homogenize.specimen.snapshot_store import SnapshotStore
 from homogenize.specimen.specimen_solution import Specimen, SpecimenSolution, solve_specimen, specimen_axis
 from homogenize.specimen.unit_response import UNIT_LOADS, UnitResponse, area_derivatives, mean_tilt, node_shares
 
@@ -53,6 +54,7 @@ class ReducedBasis:
     specimen : Specimen
         Bonded, held all over its end, free and loaded all over the other.
     tolerance : of the full solutions, in energy
+    store : where solutions are kept and found again
 
     Raises
     ------
@@ -61,13 +63,18 @@ class ReducedBasis:
     """
 
     def __init__(
-        self, mesh: CrossSectionMesh, groups: Sequence[int], specimen: Specimen, tolerance: float = 1e-4
+        self,
+        mesh: CrossSectionMesh,
+        groups: Sequence[int],
+        specimen: Specimen,
+        tolerance: float = 1e-4,
+        store: SnapshotStore | None = None,
     ) -> None:
         if specimen.interface != "bonded" or specimen.held.parts or getattr(specimen.loaded, "parts", True):
             raise SpecError(
                 "a reduced basis needs a bonded specimen, held and loaded all over its ends; take the full model."
             )
-        self.mesh, self.specimen, self.tolerance = mesh, specimen, tolerance
+        self.mesh, self.specimen, self.tolerance, self.store = mesh, specimen, tolerance, store
         self.groups = np.asarray(groups, dtype=np.int64)
         self.count = int(self.groups.max()) + 1
         basis = specimen_axis(specimen, mesh)
@@ -96,7 +103,14 @@ class ReducedBasis:
 
     def add(self, place: ReducedPlace) -> None:
         """Solve the specimen at a place and take its three solutions into the basis."""
-        self.take(place, self.full(place).U)
+        shape = (self.field.unknowns, len(self.axial.stations), len(UNIT_LOADS))
+        key = {"place": f"{place}", "shape": f"{shape}"}
+        U = None if self.store is None else self.store.displacements(key, shape)
+        if U is None:
+            U = self.full(place).U
+            if self.store is not None:
+                self.store.keep_displacements(key, U)
+        self.take(place, U)
 
     def take(self, place: ReducedPlace, U: FloatArray) -> None:
         """Take solutions U (n, m, 3) into the basis."""

@@ -60,7 +60,7 @@ range = ["150 MPa", "600 MPa"]
 status = "assumed"
 reason = "made up"
 """
-RUN = ("--size", "8 mm", "--snapshots", "4", "--starts", "1", "--runs", "4")
+RUN = ("--size", "8 mm", "--coarse", "10 mm", "--snapshots", "3", "--starts", "1", "--runs", "4")
 
 
 @pytest.fixture(scope="module")
@@ -106,8 +106,11 @@ def test_calibrated_file_says_where_its_numbers_come_from(made):
         "4 MPa",
         "12 MPa",
     ]
-    assert "length" in table["notes"][0] and table["sheath"]["wall"]["source"] == "made up"
-    assert read_cable(path).outer_diameter == pytest.approx(0.04)
+    assert table["specimen"]["length"]["source"].startswith("calibrated to") and table["sheath"]["wall"]["source"] == "made up"
+    cable = read_cable(path)
+    assert cable.outer_diameter == pytest.approx(0.04)
+    assert cable.specimen is not None
+    assert cable.specimen.length == pytest.approx(next(p["value"] for p in made[2]["inputs"] if p["name"] == "length"), rel=1e-6)
 
 
 def test_resumed_run_solves_no_full_model_again(made, capsys):
@@ -127,7 +130,9 @@ def test_bad_requests_are_sentences(made, tmp_path, capsys):
     targets = (folder / "targets.toml").read_text()
     wall, no_length = tmp_path / "wall.toml", tmp_path / "no_length.toml"
     wall.write_text(
-        targets.replace("materials.rubber.E", "sheath.wall").replace('["4 MPa", "12 MPa"]', '["9 mm", "11 mm"]')
+        targets.replace('"materials.rubber.E"', '"materials.rubber.E", "sheath.wall"').replace(
+            '["4 MPa", "12 MPa"]', '["9 mm", "11 mm"]'
+        )
     )
     start = targets.index("[[parameters]]")
     no_length.write_text(targets[:start] + targets[targets.index("[[parameters]]", start + 1) :])
@@ -136,7 +141,7 @@ def test_bad_requests_are_sentences(made, tmp_path, capsys):
         (["no-such-cable"], "no-such-cable"),
         ([disc, "--targets", str(tmp_path / "none.toml")], "no such file"),
         ([disc, "--targets", "published"], "no entry"),
-        ([disc, "--targets", str(wall)], "sheath.wall"),
+        ([disc, "--targets", str(wall)], "cannot be read in"),
         ([disc, "--targets", str(no_length)], "length"),
         ([disc, "--resume"], "--out"),
         ([disc, "--runs", "0"], "--runs"),
