@@ -26,7 +26,7 @@ def reference(tmp_path_factory):
     path.write_text(straight, encoding="utf-8")
     mesh = dataclasses.replace(specimen_mesh(read_cable(str(path)), size=8e-3), twist_rate=2 * np.pi / PITCH)
     specimen = Specimen(0.1823, grading=AxialGrading(end_size=0.1, growth=4.0, largest=1.5, degree=4))
-    return solve_specimen(specimen, mesh, LOADS, tolerance=1e-3)  # 1e-6 in energy, hence in moduli
+    return solve_specimen(specimen, mesh, LOADS, tolerance=5e-3)  # 2.5e-5 in energy, hence in moduli
 
 
 def test_moduli_and_displacements(reference):
