@@ -13,12 +13,10 @@ from helicable.screen import ProgressCallback, engineering, progress, say, table
 from homogenize import Interfaces
 from homogenize.specimen import FrictionalContact, LoadCase, Specimen, coarse_section, contact_specimen, follow_specimen
 from homogenize.specimen.apparent_modulus import ApparentModulus
+from homogenize.specimen.ladder import SOFT
 from homogenize.specimen.load_steps import contact_modulus, equal_steps, followed_modulus
 from homogenize.specimen.opening_specimen import contact_path, initial_state
 from homogenize.specimen.specimen_mesh import specimen_mesh
-
-SOFT = 1e9
-"""Young's modulus [Pa] below which a part follows the neo-Hookean law; St Venant-Kirchhoff loses its stiffness in strong compression."""
 
 
 def is_opening(interface: str | Interfaces) -> bool:

@@ -2,6 +2,7 @@ r"""The ladder: the published specimen's numbers from the long cable up, one eff
 
 1. long cable, bonded, twist blocked - 2. twist released - 3. finite specimen, rigid plate - 4. load through the end-section (uniform
 traction) - 5. conductors on an elastic interface - 6. cores that open and rub - 7. large displacements (bonded again).
+Rungs 6 and 7 may stand on a coarser mesh, with rung 4 repeated on it.
 
 For rungs 1 and 2 a specimen of length L is a rod of the cell's stiffness, fixed at one end:
 
@@ -22,24 +23,28 @@ import numpy as np
 
 from geometry.cell_mesh import CrossSectionMesh
 from geometry.errors import InputError
+from geometry.material import Material
 from homogenize.elastic_interface import Elastic
 from homogenize.helical_cell import solve_helical_cell
 from homogenize.interface_choice import Interfaces
 from homogenize.section_stiffness import pitch_average
-from homogenize.specimen.apparent_modulus import apparent_moduli
+from homogenize.specimen.apparent_modulus import ApparentModulus, apparent_moduli
+from homogenize.specimen.axial_grading import AxialGrading
 from homogenize.specimen.contact_condensation import contact_specimen
 from homogenize.specimen.end_condition import Plate, Traction
 from homogenize.specimen.frictional_contact import FrictionalContact
 from homogenize.specimen.large_displacement_specimen import follow_specimen
 from homogenize.specimen.load_case import LoadCase
+from homogenize.specimen.load_steps import contact_modulus, followed_modulus
 from homogenize.specimen.opening_specimen import contact_path, initial_state
 from homogenize.specimen.specimen_solution import Specimen, solve_specimen
-from homogenize.specimen.stress_strain_curve import stress_strain_curve
 
 Progress = Callable[[float, str], None]
 
 TENSION = 2000.0
 SHEAR = 500.0
+SOFT = 1e9
+"""Young's modulus [Pa] below which a part is neo-Hookean on the rung of large displacements."""
 _LOADS = (LoadCase("tension", TENSION), LoadCase("shear", SHEAR, "x"), LoadCase("shear", SHEAR, "y"))
 
 
@@ -95,19 +100,17 @@ def large_displacement_rung(
     specimen: Specimen,
     mesh: CrossSectionMesh,
     shares: Sequence[float] = (0.25, 0.5, 0.75, 1.0),
+    progress: Progress | None = None,
     remark: str = "",
 ) -> Rung:
-    """Bonded, followed with large displacements; moduli are slopes of the line fitted to all shares, G the mean of both signs."""
-    slopes, largest = [], []
-    loads = (_LOADS[0], *(replace(load, size=s * load.size) for load in _LOADS[1:] for s in (1, -1)))
-    for load in loads:
-        (followed,) = follow_specimen(specimen, mesh, [load], shares=tuple(shares))
-        area = followed.path.wedges.section.area
-        stress = followed.shares * load.size / area
-        slopes.append(stress_strain_curve([0.0, *(stress / followed.apparent_modulus(area))], [0.0, *stress]).slope)
-        largest.append(float(followed.largest[-1]))
-    E, *G = slopes
-    return Rung(name, E, 0.5 * (G[0] + G[1]), 0.5 * (G[2] + G[3]), *largest, remark=remark)
+    """Bonded, followed with large displacements; moduli are slopes of the line fitted to all shares, G the mean of both signs.
+
+    Soft parts are neo-Hookean.
+    """
+    loads = [_LOADS[0], *(replace(load, size=s * load.size) for load in _LOADS[1:] for s in (1, -1))]
+    soft = [r.name for r in mesh.regions if isinstance(r.material, Material) and r.material.E < SOFT]
+    followed = follow_specimen(specimen, mesh, loads, shares=tuple(shares), neo_hookean=soft, progress=progress)
+    return _signed_rung(name, [followed_modulus(one, specimen.length) for one in followed], remark)
 
 
 def opening_rung(
@@ -116,21 +119,24 @@ def opening_rung(
     mesh: CrossSectionMesh,
     law: FrictionalContact,
     interface: str = "core-filler",
+    shares: Sequence[float] = (0.5, 1.0),
     progress: Progress | None = None,
     remark: str = "",
 ) -> Rung:
     """Parts that open and rub on one interface, small displacements; every load from the same initial state, G the mean of both signs."""
     contacts = contact_specimen(replace(specimen, interface=Interfaces({interface: law})), mesh, _LOADS, progress)
     start = initial_state(contacts)
-    area = float(contacts.face_weight.sum())
-    slopes, largest = [], []
-    for load, sign in ((0, 1), (1, 1), (1, -1), (2, 1), (2, -1)):
-        end = contact_path(contacts, load, (0.5 * sign, float(sign)), start)[-1]
-        axis = (2, 0, 1)[load]
-        slopes.append(sign * abs(_LOADS[load].size) / area / (end.strain[load] - start.strain[load]))
-        largest.append(float((sign * end.face[:, axis]).max()))
-    E, *G = (float(s) for s in slopes)
-    return Rung(name, E, 0.5 * (G[0] + G[1]), 0.5 * (G[2] + G[3]), *largest, remark=remark)
+    found = []
+    for load, sign in ((0, 1.0), (1, 1.0), (1, -1.0), (2, 1.0), (2, -1.0)):
+        path = contact_path(contacts, load, [sign * share for share in shares], start, progress)
+        found.append(contact_modulus(contacts, load, start, path))
+    return _signed_rung(name, found, remark)
+
+
+def _signed_rung(name: str, found: Sequence[ApparentModulus], remark: str) -> Rung:
+    """Of tension, +x, -x, +y, -y."""
+    E, *G = (one.modulus for one in found)
+    return Rung(name, E, 0.5 * (G[0] + G[1]), 0.5 * (G[2] + G[3]), *(one.u_max for one in found), remark=remark)
 
 
 def ladder(
@@ -139,9 +145,9 @@ def ladder(
     *,
     stiffness: float = 1e10,
     contact: FrictionalContact | None = None,
-    contact_mesh: CrossSectionMesh | None = None,
-    contact_specimen_grading: Specimen | None = None,
     large: bool = True,
+    coarse: CrossSectionMesh | None = None,
+    coarse_grading: AxialGrading | None = None,
     progress: Progress | None = None,
 ) -> tuple[Rung, ...]:
     """All rungs.
@@ -153,8 +159,9 @@ def ladder(
         Length, phase and grading are taken from it.
     stiffness : of the conductors' interface [Pa/m]
     contact : law of the cores' interface on rung 6; the rung is left out if not given
-    contact_mesh, contact_specimen_grading : a coarser section and a specimen with a coarser grading for rung 6, whose matrix is dense
     large : whether to climb rung 7
+    coarse, coarse_grading : section and layers of rungs 6 and 7, which cost most; rung 4 is repeated on them, so that each effect is seen
+        against the same mesh
     """
     tell = progress or (lambda fraction, sentence: None)
     end = replace(specimen, loaded=Traction(), interface="bonded")
@@ -167,17 +174,24 @@ def ladder(
     tell(0.3, "the elastic interface")
     elastic = Interfaces({"conductor-insulation": Elastic(stiffness)})
     rungs.append(linear_rung("elastic interface", replace(end, interface=elastic), mesh, f"{stiffness / 1e9:g} MPa/mm"))
+    few = mesh if coarse is None else coarse
+    short = end if coarse_grading is None else replace(end, grading=coarse_grading)
+    if (contact is not None or large) and (coarse is not None or coarse_grading is not None):
+        rungs.append(linear_rung("traction, coarse mesh", short, few, f"{len(few.cells)} triangles"))
     if contact is not None:
-        tell(0.4, "opening contacts")
-        coarse = contact_specimen_grading or end
+        watch = _part(tell, 0.4, 0.7)
         rungs.append(
-            opening_rung("opening, rubbing cores", coarse, contact_mesh or mesh, contact, remark=contact.describe())
+            opening_rung("opening, rubbing cores", short, few, contact, progress=watch, remark=contact.describe())
         )
     if large:
-        tell(0.7, "large displacements")
-        rungs.append(large_displacement_rung("large displacements", end, mesh, remark="bonded"))
+        watch = _part(tell, 0.7, 1.0)
+        rungs.append(large_displacement_rung("large displacements", short, few, progress=watch, remark="bonded"))
     tell(1.0, "the ladder is climbed")
     return tuple(rungs)
+
+
+def _part(tell: Progress, low: float, high: float) -> Progress:
+    return lambda fraction, sentence: tell(low + (high - low) * fraction, sentence)
 
 
 def write_ladder(rungs: Sequence[Rung], path: Path, about: str) -> None:

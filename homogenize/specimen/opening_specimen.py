@@ -2,7 +2,7 @@ r"""A specimen whose parts open and rub: one path of loads after another from th
 
 Small displacements. At each load the jumps solve :math:`G(j) = j - s j_0 - \tilde C q(j) = 0`
 (:mod:`homogenize.specimen.contact_condensation`) by a semismooth Newton method: only points that are open or slip have a q, so that
-its matrix :math:`I - \tilde C\, dq/dj` is reduced to these points.
+its matrix :math:`I - \tilde C\, dq/dj` is reduced to these points; where they are many, GMRES solves for the step.
 Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375, doi 10.1016/0045-7825(91)90022-X.
 
 The initial state comes first: an interference is let go without a load, a grip is in balance already. Where an observed displacement under
@@ -15,6 +15,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse.linalg as spla
 from numpy.typing import NDArray
 
 from geometry.errors import ConvergenceError, SpecError
@@ -28,6 +29,8 @@ TOLERANCE = 1e-7
 MOST_ITERATIONS = 25
 MOST_CUTS = 4
 MOST_FROZEN = 8
+_DIRECT = 600
+"""Jumps up to which a Newton step is solved directly; above that by GMRES, to a thousandth."""
 _SHARES = (1.0, 0.5, 0.25, 0.1, 0.03)
 """Of a Newton step, tried one after another until the residual falls."""
 
@@ -223,9 +226,19 @@ def _step(C: FloatArray, G: FloatArray, slope: FloatArray, loose: NDArray[np.int
     if not len(loose):
         return -G
     at = (3 * loose[:, None] + np.arange(3)).ravel()
-    columns = np.einsum("nki,kij->nkj", C[:, at].reshape(len(C), -1, 3), slope, optimize=True).reshape(len(C), -1)
-    inner = np.linalg.solve(np.eye(len(at)) - columns[at], -G[at])
-    return columns @ inner - G
+    columns = C if len(at) == len(C) else C[:, at]
+    inside = columns if len(at) == len(C) else columns[at]
+
+    def excess(x: FloatArray) -> FloatArray:
+        return np.einsum("kij,kj->ki", slope, x.reshape(-1, 3)).ravel()
+
+    if len(at) > _DIRECT:
+        operator = spla.LinearOperator(inside.shape, lambda x: x - inside @ excess(x))
+        x, failed = spla.gmres(operator, -G[at], rtol=1e-3, restart=80, maxiter=4, atol=0.0)
+        if not failed:
+            return columns @ excess(x) - G
+    blocks = np.einsum("nki,kij->nkj", inside.reshape(len(at), -1, 3), slope, optimize=True).reshape(len(at), -1)
+    return columns @ excess(np.linalg.solve(np.eye(len(at)) - blocks, -G[at])) - G
 
 
 def _sentence(specimen: ContactSpecimen, state: ContactState, done: float, error: float) -> str:
