@@ -35,7 +35,10 @@ from homogenize.specimen.specimen_mesh import specimen_mesh
 EDGES = ((0, 1), (1, 2), (2, 0))
 """Corners of the edges whose middles are nodes 7 to 9, and 10 to 12, of the wedge."""
 LOADS = (LoadCase("tension", 2000.0), LoadCase("shear", 500.0, "x"), LoadCase("shear", 500.0, "y"))
-GRADINGS = (AxialGrading(end_size=0.08, growth=1.7, largest=0.35), AxialGrading(end_size=0.03, growth=1.7, largest=0.35))
+GRADINGS = tuple(
+    AxialGrading(end_size=size, growth=growth, largest=largest)
+    for size, growth, largest in ((0.15, 2.0, 0.5), (0.08, 1.7, 0.35), (0.03, 1.7, 0.35))
+)
 """Layers of the wedges; this package has polynomials of degree 4 on the layers that it takes by itself."""
 
 
