@@ -21,7 +21,7 @@ LENGTH = 0.1823
 RECORD = Path(__file__).with_name("ladder.json")
 PICTURE = Path(__file__).parents[1] / "docs" / "pictures" / "ladder.png"
 CONTACT = FrictionalContact(0.3)
-COARSE = AxialGrading(end_size=0.1, largest=0.9, growth=4.0, degree=3)
+COARSE = AxialGrading(end_size=0.24, largest=0.9, growth=4.0, degree=3)
 
 
 def main(name: str = CABLE) -> None:
