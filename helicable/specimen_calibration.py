@@ -38,7 +38,7 @@ COARSE_GRADING = AxialGrading(end_size=0.1, largest=1.5, growth=4.0, degree=3)
 _SEEN = 1e-4
 _STEP = 0.2
 """Of the range of a dimension."""
-_SPREAD = 0.4
+_SPREAD = 0.25
 """Share of the ranges, about the start, where snapshots are offered."""
 _TOLERANCE, _COARSE_TOLERANCE = 1e-3, 1e-2
 
@@ -185,7 +185,7 @@ class CheapModel:
         identity = {**case.identity, "coarse": f"{self.mesh_size}", "base": str(sorted(self.base.items()))}
         store = None if folder is None else SnapshotStore(folder, identity)
         self.basis = ReducedBasis(mesh, groups, specimen, tolerance=_COARSE_TOLERANCE, store=store)
-        offered = middle + _SPREAD * (sobol_starts(low, high, 3 * case.snapshots, seed) - middle)
+        offered = middle + _SPREAD * (sobol_starts(low, high, case.snapshots + 4, seed) - middle)
         offered[0] = middle
         places = [
             self.place({p.name: p.value(float(v)) for p, v in zip(case.file.parameters, x, strict=True)})

@@ -10,6 +10,7 @@ NAMES = (
     "example-three-core",
     "helical-rod",
     "mcpt-1.9-3.3-3x35",
+    "mcpt-1.9-3.3-3x35-specimen",
     "mcpt-1.9-3.3-3x95",
     "paper-specimen-3x35",
     "sea-three-core",
