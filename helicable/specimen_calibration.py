@@ -34,13 +34,13 @@ from homogenize.specimen.unit_response import UNIT_LOADS, UnitResponse, unit_res
 Progress = Callable[[float, str], None]
 TENSION, SHEAR = 2000.0, 500.0
 """Forces of the published load cases [N]."""
-COARSE_GRADING = AxialGrading(end_size=0.1, largest=1.5, growth=4.0, degree=3)
+COARSE_GRADING = AxialGrading(end_size=0.1, largest=1.0, growth=4.0)
 _SEEN = 1e-4
 _STEP = 0.2
 """Of the range of a dimension."""
-_SPREAD = 0.25
+_SPREAD = 0.2
 """Share of the ranges, about the start, where snapshots are offered."""
-_TOLERANCE, _COARSE_TOLERANCE = 1e-3, 1e-2
+_TOLERANCE, _COARSE_TOLERANCE = 1e-3, 3e-3
 
 
 @dataclass(frozen=True)
