@@ -31,6 +31,10 @@ Model = Callable[[Mapping[str, float]], Mapping[str, float]]
 Progress = Callable[[float, str], None]
 
 
+_FAR = 100.0
+"""Times the target: no output of the search counts as more."""
+
+
 @dataclass(frozen=True)
 class FullRun:
     """One run of the full model: inputs and outputs (SI) by name, misfit |r|^2 / 2, and what the cheap model had promised."""
@@ -114,9 +118,14 @@ class _Corrected:
         weight = 1 / squared
         return weight @ np.array(self.gaps) / weight.sum()
 
+    def _far(self, outputs: Mapping[str, float]) -> dict[str, float]:
+        """Outputs of the search: one without a logarithm (a modulus past infinity) counts as far above its target."""
+        far = {t.name: _FAR * t.value for t in self.targets}
+        return {k: far[k] if k in far and not 0 < v < far[k] else v for k, v in outputs.items()}
+
     def residual(self, x: Array) -> Array:
         wanted = np.log([t.value for t in self.targets])
-        logs = self.logs(self.cheap(self.values(x))) + self.correction(x)
+        logs = self.logs(self._far(self.cheap(self.values(x)))) + self.correction(x)
         return (logs - wanted) / np.array([t.error for t in self.targets])
 
     def promise(self, x: Array) -> dict[str, float]:

@@ -83,7 +83,7 @@ class SnapshotStore:
         path = self._path(key)
         beside = path.with_suffix(".part.npz")
         try:
-            np.savez(beside, **arrays)
+            np.savez(beside, **arrays)  # pyright: ignore[reportArgumentType]
             os.replace(beside, path)
         except OSError as error:
             raise InputError(f"{path} cannot be written: {error.strerror or error}; choose another place.") from None
