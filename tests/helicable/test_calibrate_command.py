@@ -106,11 +106,16 @@ def test_calibrated_file_says_where_its_numbers_come_from(made):
         "4 MPa",
         "12 MPa",
     ]
-    assert table["specimen"]["length"]["source"].startswith("calibrated to") and table["sheath"]["wall"]["source"] == "made up"
+    assert (
+        table["specimen"]["length"]["source"].startswith("calibrated to")
+        and table["sheath"]["wall"]["source"] == "made up"
+    )
     cable = read_cable(path)
     assert cable.outer_diameter == pytest.approx(0.04)
     assert cable.specimen is not None
-    assert cable.specimen.length == pytest.approx(next(p["value"] for p in made[2]["inputs"] if p["name"] == "length"), rel=1e-6)
+    assert cable.specimen.length == pytest.approx(
+        next(p["value"] for p in made[2]["inputs"] if p["name"] == "length"), rel=1e-6
+    )
 
 
 def test_resumed_run_solves_no_full_model_again(made, capsys):
