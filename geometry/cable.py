@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from geometry.errors import MeshError
 from geometry.helix import HANDS, lay_angle
 from geometry.material import Material
+from geometry.specimen_case import SpecimenCase
 from geometry.strand import Conductor
 from geometry.wire_trace import WireTrace
 
@@ -137,6 +138,7 @@ class Cable:
     laid_up_radius : outer radius of the laid-up cores, without cores of the centre [m]
     data_sheet : what a data sheet says, by the name of the attribute: outer_diameter, mass_per_length
     data_sheet_source : which sheet that is
+    specimen : the finite specimen that the file stands for, if it names one
     numbers : every number of the file with its mark
     """
 
@@ -153,6 +155,7 @@ class Cable:
     notes: tuple[str, ...] = ()
     data_sheet: Mapping[str, MarkedNumber] = field(default_factory=dict)
     data_sheet_source: str = ""
+    specimen: SpecimenCase | None = None
 
     @property
     def twist_rate(self) -> float:

@@ -14,6 +14,7 @@ from geometry.errors import SpecError
 from geometry.helix import HANDS
 from geometry.lay_up import Layer, Round, check_names, lay_up, ring_part
 from geometry.material import Material
+from geometry.specimen_case import SpecimenCase
 from geometry.strand import Conductor, Strand, stranded_conductor
 from geometry.strand_contact import WIDEST
 from geometry.wire_layer import WireLayer, check_layer, layer_parts
@@ -91,6 +92,7 @@ def assembled(table: CableTable) -> Cable:
         notes=tuple(table.notes),
         data_sheet=_data_sheet(table),
         data_sheet_source="" if table.data_sheet is None else table.data_sheet.source,
+        specimen=_specimen(table),
     )
 
 
@@ -146,6 +148,13 @@ def _wire_layer(name: str, spec: WiresTable, materials: Mapping[str, Material], 
 
 def _rate(lay: float | None, hand: str) -> float:
     return 0.0 if lay is None else HANDS[hand] * 2 * np.pi / lay
+
+
+def _specimen(table: CableTable) -> SpecimenCase | None:
+    spec = table.specimen
+    if spec is None:
+        return None
+    return SpecimenCase(_si(spec.length), _maybe(spec.phase) or 0.0, spec.loaded, spec.held, spec.interface)
 
 
 def _data_sheet(table: CableTable) -> dict[str, MarkedNumber]:

@@ -235,6 +235,25 @@ class DataSheetTable(_Table):
     source: Annotated[str, Field(min_length=1, max_length=300)]
 
 
+def _word(*allowed: str) -> BeforeValidator:
+    def read(raw: Any) -> str:
+        if not isinstance(raw, str) or raw.strip().partition(":")[0].strip() not in allowed:
+            raise SpecError(f"{PLACE}: {raw!r} is not known; choose one of {', '.join(allowed)}.")
+        return raw.strip()
+
+    return BeforeValidator(read)
+
+
+class SpecimenTable(_Table):
+    """[specimen]: the finite specimen of a test; the ends in the words of `helicable specimen`."""
+
+    length: Length
+    phase: Angle | None = None
+    loaded: Annotated[str, _word("uniform", "traction", "plate", "grip")] = "uniform"
+    held: Annotated[str, _word("fixed", "grip")] = "fixed"
+    interface: Annotated[str, Field(min_length=1, max_length=300)] = "bonded"
+
+
 class CableTable(_Table):
     """The whole file."""
 
@@ -252,3 +271,4 @@ class CableTable(_Table):
     wrap: WallTable | None = None
     sheath: WallTable | None = None
     data_sheet: DataSheetTable | None = Field(alias="data-sheet", default=None)
+    specimen: SpecimenTable | None = None

@@ -44,7 +44,11 @@ QUAD_RECIPES: list[Mapping[str, float]] = [
 
 
 def cross_section_mesh(
-    cable: Cable, size: float | None = None, kind: str = "triangle6", holes: Mapping[str, NDArray] | None = None
+    cable: Cable,
+    size: float | None = None,
+    kind: str = "triangle6",
+    holes: Mapping[str, NDArray] | None = None,
+    smallest: float = 0.0,
 ) -> CrossSectionMesh:
     """Mesh the section z = 0 of a cable.
 
@@ -57,6 +61,7 @@ def cross_section_mesh(
     kind : "triangle6" (default), "triangle", "quad" or "quad9"
     holes : parts to leave empty, by name, with the angles of the corners round each hole, growing within one turn; every edge
         between two corners is halved for quadrilaterals
+    smallest : edge length [m] below which no thin layer or neck drives the size; the necks are then meshed with flat elements
 
     Returns
     -------
@@ -85,7 +90,7 @@ def cross_section_mesh(
     best: CrossSectionMesh | None = None
     quality = -np.inf
     for recipe in QUAD_RECIPES if quads else [{"Algorithm": 6}]:
-        mesh = _meshed(cable, outline, coarse, kind, recipe, corners)
+        mesh = _meshed(cable, outline, coarse, kind, {**recipe, "MeshSizeMin": smallest}, corners)
         worst = float(scaled_jacobian(mesh).min())
         if worst > quality:
             best, quality = mesh, worst

@@ -15,10 +15,13 @@ from geometry.errors import ConvergenceError, InputError
 from helicable.screen import errors
 
 VERBS = (
-    "cables", "show", "mesh", "homogenize", "loop", "stress", "tow", "sweep", "check", "compare", "explain", "add", "next", "effects",
-    "demo", "verify",
+    "cables", "show", "mesh", "homogenize", "loop", "stress", "specimen", "calibrate", "strand-test", "tow", "sweep", "check", "compare",
+    "explain", "add", "next", "effects", "demo", "verify",
 )  # fmt: skip
-FILES = {"next": "next_experiment"}  # where a verb's file and function are not named as the verb
+FILES = {
+    "next": "next_experiment",
+    "strand-test": "strand_test",
+}  # where a verb's file and function are not named as the verb
 
 
 def application(arguments: Sequence[str]) -> typer.Typer:

@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 
 from beam.element import reference_strains
-from beam.generalized_alpha import Integrator, StepSettings
-from beam.motion import Turn
 from beam.rod import GAUSS_X, Rod
 from beam.rod_model import Blocks, RodModel, Support
 from beam.rotation_vector import (
@@ -149,33 +147,3 @@ def test_cantilever_winds_up_in_full_circles(turns):
     result.outcome.require_success()
     np.testing.assert_allclose(result.q[-1, 0:2], 0.0, rtol=0, atol=1e-3)
     np.testing.assert_allclose(result.forces.S[:, :, 5], load[-1, 8], rtol=1e-2)
-
-
-def hub(t: float) -> tuple[float, float, float]:
-    """Angle, speed, acceleration of the spin-up: 6 rad/s after 15 s."""
-    if t >= 15.0:
-        return 6 * t - 45, 6.0, 0.0
-    w = 2 * np.pi / 15
-    return 0.4 * (t * t / 2 + (np.cos(w * t) - 1) / w**2), 0.4 * (t - np.sin(w * t) / w), 0.4 * (1 - np.cos(w * t))
-
-
-def test_spin_up_over_seven_turns():
-    """D2, Simo and Vu-Quoc 1986: tip in the turning frame against Exudyn 1.13.6 (GE2D, 32 elements, 2.5 ms), 1 % of 0.574 m;
-    steady stretch of the turning rod rho A w^2 L^3 / (3 EA) = 5.143e-4 m."""
-    section = SectionStiffness.uncoupled(EA=2.8e7, GA_x=1e7, GA_y=1e7, EI_x=1.4e4, EI_y=1.4e4, GJ=1e4, area=1.0)
-    rod = Rod.straight(10.0, 8, section, SectionInertia(1.2, 6e-4, 6e-4, 1.2e-3))
-    model = RodModel(rod, straight(rod.s), [Support(0, turn=Turn(hub))])
-    motion = Integrator(model, model.q0, settings=StepSettings(5e-3, adaptive=False, spectral_radius=0.8))
-    expected = {
-        2.5: (-1.325e-3, -0.15141), 5.0: (-1.2658e-2, -0.46855), 7.5: (-1.7741e-2, -0.55907),
-        10.0: (-7.069e-3, -0.36272), 12.5: (-2.21e-4, -0.11263), 15.0: (5.140e-4, 1.29e-3),
-    }  # fmt: skip
-    for t, tip in expected.items():
-        assert motion.advance(500), str(motion.outcome)
-        angle = hub(t)[0]
-        c, s = np.cos(angle), np.sin(angle)
-        x, y = motion.q[-1, 0:2]
-        np.testing.assert_allclose((c * x + s * y - 10.0, c * y - s * x), tip, rtol=0, atol=5.74e-3)
-    assert motion.advance(200)
-    x, y = motion.q[-1, 0:2]
-    assert np.hypot(x, y) - 10.0 == pytest.approx(5.143e-4, abs=5e-5)

@@ -21,7 +21,31 @@ def changed(folder: Path, old: str, new: str) -> Path:
     return write(folder, TEXT.replace(old, new, 1))
 
 
+SPECIMEN = """[specimen]
+length = { value = "170 mm", status = "assumed", range = ["120 mm", "400 mm"], source = "not published" }
+"""
 CHANGES = {
+    "specimen without length": (
+        "[data-sheet]",
+        '[specimen]\nheld = "fixed"\n[data-sheet]',
+        r"specimen\.length: this entry is missing",
+    ),
+    "specimen of no length": (
+        "[data-sheet]",
+        SPECIMEN.replace("170 mm", "-170 mm") + "[data-sheet]",
+        r"specimen\.length: .* must be positive",
+    ),
+    "specimen, unknown end": (
+        "[data-sheet]",
+        SPECIMEN + 'loaded = "glue"\n[data-sheet]',
+        r"specimen\.loaded: 'glue' is not known; choose one of uniform",
+    ),
+    "specimen, unknown hold": ("[data-sheet]", SPECIMEN + "held = 3\n[data-sheet]", r"specimen\.held: 3 is not known"),
+    "specimen, unknown key": (
+        "[data-sheet]",
+        SPECIMEN + "clamp = 3\n[data-sheet]",
+        r"specimen\.clamp: this key is not known",
+    ),
     "unknown key": (
         'wall = { value = "6.00 mm"',
         'colour = "black"\nwall = { value = "6.00 mm"',
