@@ -118,10 +118,9 @@ def contact_specimen(
     tell(0.0, f"factoring {int(free.sum())} unknowns")
     K = _stiffness(system, axis) + sp.csr_array((springs, (jumps, jumps)), shape=(n * m, n * m))
     inverse = _Inverse(K, free)
-    rows = sp.csr_array(
-        sp.vstack([_face_rows(specimen, mesh, system, axis), _strain_rows(specimen, mesh, system, axis)])
-    )
-    compliance, columns = np.empty((len(jumps), len(jumps))), np.empty((rows.shape[0], len(jumps)))
+    observed = (_face_rows(specimen, mesh, system, axis), _strain_rows(specimen, mesh, system, axis))
+    rows = sp.csr_array(sp.vstack(observed))
+    compliance, columns = np.empty((len(jumps), len(jumps))), np.empty((len(rows.indptr) - 1, len(jumps)))
     for start in range(0, len(jumps), _BLOCK):
         some = slice(start, start + _BLOCK)
         tell(0.1 + 0.9 * start / len(jumps), f"condensing {len(jumps)} jumps")
@@ -151,7 +150,7 @@ def contact_specimen(
             system.field.cells.T.ravel(),
             (system.field.weight @ system.field.shape.T).ravel(),
             system.field.nodes.shape[1],
-        ),
+        ).astype(np.float64),
     )
 
 
@@ -164,8 +163,8 @@ def _free(
     specimen: Specimen, mesh: CrossSectionMesh, system: SectionSystem, axis: AxialBasis, loads: Sequence[LoadCase]
 ) -> tuple[NDArray[np.bool_], FloatArray]:
     """Free unknowns (stations x n,) and forces (stations x n, loads); the held end must be held altogether, the other one free."""
-    n, m = system.pencil.E2.shape[0], len(axis.stations)
-    if not held_end(specimen.held, system, mesh).closed or loaded_end(specimen.loaded, system, mesh).A.shape[1] != n:
+    n, m = len(system.pencil.Z), len(axis.stations)
+    if not held_end(specimen.held, system, mesh).closed or loaded_end(specimen.loaded, system, mesh).free != n:
         raise SpecError(
             "a specimen with opening contacts is fixed at one end-section and loaded by a traction on the other."
         )
