@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import socket
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
@@ -65,6 +66,7 @@ def _client(workers: int, scheduler: str | None) -> Iterator[Any]:
             yield client
         return
     try:
+        _reach(scheduler)
         client = Client(scheduler, timeout=CONNECT_SECONDS)
     except (OSError, TimeoutError, ValueError) as error:
         raise InputError(
@@ -75,3 +77,11 @@ def _client(workers: int, scheduler: str | None) -> Iterator[Any]:
         if not client.scheduler_info()["workers"]:
             logging.getLogger(__name__).warning("the scheduler %s has no workers yet; waiting for them", scheduler)
         yield client
+
+
+def _reach(scheduler: str) -> None:
+    """Open and close a connection: a client that never connects leaves its threads behind."""
+    from distributed.comm import get_address_host_port
+
+    with socket.create_connection(get_address_host_port(scheduler), timeout=CONNECT_SECONDS):
+        pass

@@ -192,7 +192,7 @@ def test_an_unreachable_scheduler_is_a_sentence(scenario, tmp_path, monkeypatch)
 def test_a_scheduler_gives_the_same_rows(scenario, done, tmp_path):
     """The address of a running scheduler instead of this process: equal numbers, failures included, full runs as files."""
     distributed = pytest.importorskip("distributed")
-    settings = {"processes": False, "dashboard_address": None, "host": "tcp://127.0.0.1", "silence_logs": 50}
+    settings = {"processes": True, "dashboard_address": None, "host": "tcp://127.0.0.1", "silence_logs": 50}
     with distributed.LocalCluster(n_workers=1, threads_per_worker=1, **settings) as cluster:
         folder = sweep(scenario, done.axes, tmp_path, scheduler=cluster.scheduler_address, full=True)
     for name in ("pull_force_max", "elastic", "bend_radius_min", "status", "run"):
