@@ -81,7 +81,7 @@ def _client(workers: int, scheduler: str | None) -> Iterator[Any]:
 
 def _reach(scheduler: str) -> None:
     """Open and close a connection: a client that never connects leaves its threads behind."""
-    from distributed.comm import get_address_host_port
+    from distributed.comm.addressing import get_address_host_port
 
     with socket.create_connection(get_address_host_port(scheduler), timeout=CONNECT_SECONDS):
         pass
