@@ -36,7 +36,7 @@ class AxialGrading:
     Examples
     --------
     >>> heights = AxialGrading(end_size=0.04).heights(0.1823, 0.05)
-    >>> round(1e3 * heights[0], 3), round(1e3 * sum(heights), 6)
+    >>> float(round(1e3 * heights[0], 3)), float(round(1e3 * sum(heights), 6))
     (2.0, 182.3)
     """
 
