@@ -38,7 +38,7 @@ demo: install
 
 test: $(VENV)/.test-tools
 	@$(BIN)/python -c 'from geometry.gmsh_session import check_installation as check; check()'
-	@$(BIN)/python -m pytest -n 2 --dist loadfile
+	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist loadfile
 
 lint: $(VENV)/.test-tools
 	@$(BIN)/ruff check .
