@@ -28,8 +28,9 @@ from homogenize import solve_helical_cell
 from homogenize.specimen import AxialGrading, LoadCase, Plate, Specimen, coarse_section, solve_specimen
 from homogenize.specimen.apparent_modulus import apparent_moduli
 from homogenize.specimen.gauge_length import gauge_modulus
-from homogenize.specimen.ladder import PUBLISHED, linear_rung, long_cable_rungs, read_ladder
+from homogenize.specimen.ladder import PUBLISHED, linear_rung, long_cable_rungs
 from homogenize.specimen.ladder_plot import ladder_plot
+from homogenize.specimen.ladder_record import read_ladder
 
 cable = read_cable("paper-specimen-3x35")
 section = coarse_section(cable)  # some 200 curved triangles: 5 % too stiff, and quick
