@@ -65,7 +65,7 @@ def multi_start(
     residual : callable
         r(x), (n,); n may be smaller than p, when the minimum is a set and each start ends at its own place of it.
     low, high : (p,) arrays
-    count, first, seed : starts, one more place to start from, seed of the sequence
+    count, first, seed : starts of the sequence (0 for none), places (p,) or (k, p) to start from before them, seed of the sequence
     progress : callable, optional
 
     Examples
@@ -76,9 +76,9 @@ def multi_start(
     """
     from scipy.optimize import least_squares  # slow to load, needed here only
 
-    starts = sobol_starts(low, high, count, seed)
+    starts = sobol_starts(low, high, count, seed) if count else np.zeros((0, len(low)))
     if first is not None:
-        starts = np.vstack([np.clip(first, low, high), starts])
+        starts = np.vstack([np.clip(np.atleast_2d(first), low, high), starts])
     margin = 1e-9 * (high - low)
     found: list[Minimum] = []
     for i, x in enumerate(starts):
