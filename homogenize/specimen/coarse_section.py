@@ -90,7 +90,6 @@ def _split(cable: Cable) -> tuple[list[Part], list[Part]]:
     kinds = ("sheath", "interstices")
     around = sorted((part for part in cable.parts if part.kind in kinds), key=lambda part: kinds.index(part.kind))
     inside = [part for part in cable.parts if part.kind not in kinds]
-    inside = [part for part in cable.parts if part.kind not in kinds]
     layers = [part.name for part in inside if around and part.outer_radius > around[-1].outer_radius]
     if layers or not 1 <= len(around) <= 2:
         what = f"{layers[0]} lies between" if layers else f"found {len(around)} parts"
