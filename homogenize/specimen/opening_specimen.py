@@ -46,6 +46,7 @@ class ContactStep:
     strain : (3,) volume averages of e_zz, g_xz, g_yz
     state : of the contacts
     dissipated : by friction since the start of the path [J]
+    resultants : (12,) forces and moments about the centre of z = 0 from the held and from the loaded end; their sum should vanish
     """
 
     share: float
@@ -53,6 +54,7 @@ class ContactStep:
     strain: FloatArray
     state: ContactState
     dissipated: float
+    resultants: FloatArray
 
     def open_share(self, area: FloatArray) -> float:
         """Share of the contact surface without pressure."""
@@ -129,7 +131,8 @@ def even_and_odd(plus: float, minus: float) -> tuple[float, float]:
 def _observed(specimen: ContactSpecimen, load: int, share: float, state: ContactState, lost: float) -> ContactStep:
     q = _excess(specimen, state.jump.ravel(), state)
     seen = share * specimen.observed[:, load] + specimen.columns @ q
-    return ContactStep(share, seen[:-3].reshape(-1, 3), seen[-3:], state, lost)
+    face, strain, resultants = np.split(seen, [3 * specimen.faces, 3 * specimen.faces + 3])
+    return ContactStep(share, face.reshape(-1, 3), strain, state, lost, resultants)
 
 
 def _excess(specimen: ContactSpecimen, jump: FloatArray, state: ContactState) -> FloatArray:
