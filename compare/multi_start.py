@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Residual = Callable[[Array], Array]
 _SAME_COST = 1e-3
+_SAME_FALL = 1e-6
+"""Relative fall of the cost, or step, at which a search ends: along a sloppy direction it would go on for long."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +85,9 @@ def multi_start(
     found: list[Minimum] = []
     for i, x in enumerate(starts):
         inside = np.clip(x, low + margin, high - margin)
-        run = least_squares(residual, inside, bounds=(low, high), x_scale=high - low, max_nfev=200)
+        run = least_squares(
+            residual, inside, bounds=(low, high), x_scale=high - low, ftol=_SAME_FALL, xtol=_SAME_FALL, max_nfev=100
+        )
         found.append(Minimum(run.x, float(run.cost), run.fun, run.jac))
         if progress is not None:
             progress(

@@ -32,7 +32,7 @@ _TOLERANCE = 1e-3
 @dataclass(frozen=True)
 class CalibrationCase:
     """A cable file's `name` and `text`, the targets, the element `size` [m] of the full model (None for its own), snapshots, and the
-    element size [m] of the cheap model (None for a fifth of the outer diameter)."""
+    element size [m] of the cheap model (None for its own)."""
 
     name: str
     text: str

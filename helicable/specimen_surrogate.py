@@ -23,10 +23,10 @@ from numpy.typing import NDArray
 
 from compare.multi_start import sobol_starts
 from compare.target_file import InputParameter
-from geometry import CrossSectionMesh
-from geometry.errors import ConvergenceError, SpecError
+from geometry import Cable, CrossSectionMesh
+from geometry.errors import ConvergenceError, MeshError, SpecError
 from helicable.calibration_case import CalibrationCase, cable_at, interfaces_at, is_interface, outputs_of, value_of
-from homogenize.specimen import AxialGrading, Specimen, solve_specimen
+from homogenize.specimen import AxialGrading, Specimen, coarse_section, solve_specimen
 from homogenize.specimen.reduced_basis import ReducedBasis, ReducedPlace
 from homogenize.specimen.snapshot_store import SnapshotStore
 from homogenize.specimen.specimen_mesh import specimen_mesh
@@ -37,7 +37,7 @@ log = logging.getLogger(__name__)
 Progress = Callable[[float, str], None]
 COARSE_GRADING = AxialGrading(end_size=0.1, largest=1.0, growth=4.0)
 COARSE_SIZE = 0.2
-"""Of the outer diameter: element size of the cheap model."""
+"""Of the outer diameter: element size of the cheap model where the parts are not round."""
 _SEEN = 1e-4
 _SPREAD = 0.7
 """Share of the ranges, about their middles, where the first snapshots lie."""
@@ -91,12 +91,10 @@ class SpecimenSurrogate:
         self.apart = [p for p in case.file.parameters if _is_dimension(p) or is_interface(p)]
         self._refuse_others()
         cable = cable_at(case, self.base)
-        own = COARSE_SIZE * cable.outer_diameter
-        self.mesh_size = case.coarse or (own if case.size is None else max(own, case.size))
-        mesh = specimen_mesh(cable, self.mesh_size)
+        mesh = self._mesh(cable)
         self.hand = math.copysign(1.0, mesh.twist_rate)
         specimen = Specimen(value_of(case, "length", self.base, math.nan), grading=COARSE_GRADING)
-        identity = {**case.identity, "coarse": f"{self.mesh_size:.6g}", "base": str(sorted(self.base.items()))}
+        identity = {**case.identity, "coarse": f"{case.coarse}", "base": str(sorted(self.base.items()))}
         self.store = None if folder is None else SnapshotStore(folder, identity)
         self.basis = ReducedBasis(mesh, self._groups(mesh), specimen, tolerance=_TOLERANCE, store=self.store)
         offered = middle + _SPREAD * (sobol_starts(low, high, case.snapshots, seed) - (low + high) / 2)
@@ -109,6 +107,18 @@ class SpecimenSurrogate:
 
     def _values(self, x: NDArray[np.float64]) -> dict[str, float]:
         return {p.name: p.value(float(v)) for p, v in zip(self.case.file.parameters, x, strict=True)}
+
+    def _mesh(self, cable: Cable) -> CrossSectionMesh:
+        """A few hundred triangles on round parts, if each part is still a region then; else, or if it is asked, that of the full model
+        with larger elements."""
+        if self.case.coarse is None:
+            try:
+                mesh = coarse_section(cable)
+                if {r.name for r in mesh.regions} == {part.name for part in cable.parts}:
+                    return mesh
+            except MeshError:
+                pass
+        return specimen_mesh(cable, self.case.coarse or COARSE_SIZE * cable.outer_diameter)
 
     def _refuse_others(self) -> None:
         for p in self.case.file.parameters:
@@ -142,6 +152,7 @@ class SpecimenSurrogate:
             self.refine(values)
         self.at_centre = self.basis.evaluate(self.place(values))
         self.curves = [self._curve(p) for p in self.apart]
+        self._kept: tuple[float, list[Callable[[float], NDArray[np.float64]]]] | None = None
 
     def _curve(self, p: InputParameter) -> _Curve:
         low, high = p.bounds
@@ -160,7 +171,7 @@ class SpecimenSurrogate:
         key = {"stepped": p.name, "values": str(sorted((k, f"{v:.12g}") for k, v in values.items()))}
         kept = None if self.store is None else self.store.response(key)
         if kept is None:
-            mesh = specimen_mesh(cable_at(self.case, values), self.mesh_size)
+            mesh = self._mesh(cable_at(self.case, values))
             length = value_of(self.case, "length", values, math.nan)
             interface = interfaces_at(self.case, values, p) if is_interface(p) else "bonded"
             layers: AxialGrading = self.basis.layers  # pyright: ignore[reportAssignmentType]
@@ -180,21 +191,33 @@ class SpecimenSurrogate:
     def __call__(self, values: Mapping[str, float]) -> dict[str, float]:
         place = self.place(values)
         found = outputs_of(self.case, self.basis.evaluate(place), values, place.twist_rate)
-        if not self.curves:
-            return found
-        from scipy.interpolate import PchipInterpolator  # slow to load, needed here only
-
-        rate = self.place(self.centre).twist_rate
-        base = outputs_of(self.case, self.at_centre, values, rate)
-        for curve in self.curves:
+        for curve, factors in zip(self.curves, self._factors(value_of(self.case, "phase", values, 0.0)), strict=True):
             p = curve.parameter
-            there = [base if r is None else outputs_of(self.case, r, values, rate) for r in curve.responses]
             x = math.log(values[p.name]) if p.logarithmic else values[p.name]
-            for name in found:
-                ratios = np.array([o[name] / base[name] for o in there])
-                if (ratios > 0).all():  # a modulus past infinity says nothing
-                    found[name] *= float(np.exp(PchipInterpolator(curve.at, np.log(ratios))(x)))
+            found = {
+                name: value * factor for (name, value), factor in zip(found.items(), np.exp(factors(x)), strict=True)
+            }
         return found
+
+    def _factors(self, phase: float) -> list[Callable[[float], NDArray[np.float64]]]:
+        """Logarithms of what each curve multiplies the outputs by, at a phase; kept for the last one."""
+        if self._kept is None or self._kept[0] != phase:
+            from scipy.interpolate import PchipInterpolator  # slow to load, needed here only
+
+            rate = self.place(self.centre).twist_rate
+            values = {p.name: phase for p in self.case.file.parameters if p.moves == ("phase",)}
+            base = np.array(list(outputs_of(self.case, self.at_centre, values, rate).values()))
+            found = []
+            for curve in self.curves:
+                there = [
+                    base if r is None else list(outputs_of(self.case, r, values, rate).values())
+                    for r in curve.responses
+                ]
+                ratios = np.array(there) / base
+                ratios[:, (ratios <= 0).any(axis=0)] = 1.0  # a modulus past infinity says nothing
+                found.append(PchipInterpolator(curve.at, np.log(ratios)))
+            self._kept = phase, found
+        return self._kept[1]
 
 
 def _is_dimension(p: InputParameter) -> bool:

@@ -39,7 +39,7 @@ def calibrate(
     coarse: Annotated[
         str | None,
         typer.Option(
-            "--coarse", metavar="SIZE", help="Element size of the cheap model; a fifth of the diameter if not given."
+            "--coarse", metavar="SIZE", help="Element size of the cheap model; a few hundred elements if not given."
         ),
     ] = None,
     json: JsonOption = None,

@@ -129,7 +129,8 @@ class ReducedBasis:
         for _ in range(2):
             new = new - self.V @ (self.V.T @ new)
         Q, s, _ = np.linalg.svd(new, full_matrices=False)
-        self._extend(Q[:, s > 1e-9])
+        if (s > 1e-9).any():
+            self._extend(Q[:, s > 1e-9])
         self.places.append(place)
 
     def _extend(self, new: FloatArray) -> None:

@@ -150,12 +150,12 @@ def test_resumed_run_solves_no_full_model_again(made, capsys):
 def test_stiffness_of_an_interface_is_found_again(tmp_path):
     """0.2 MPa/mm, of the order of the rubber's own G / wall, where E and the deflection see it; the file says the interface."""
     (tmp_path / "disc.toml").write_text(CABLE)
-    mesh = specimen_mesh(read_cable(tmp_path / "disc.toml"), 10e-3)
+    mesh = specimen_mesh(read_cable(tmp_path / "disc.toml"), 14e-3)
     held = Specimen(0.1, interface=Interfaces({"conductor-sheath": Elastic(2e8)}))
     truth = unit_response(solve_specimen(held, mesh, UNIT_LOADS, tolerance=1e-3)).outputs(2000.0, 500.0)
     targets = "".join(TARGET.format(n, float(truth[n]), u) for n, u in (("E", "Pa"), ("u_x", "m")))
     (tmp_path / "targets.toml").write_text(INTERFACE.format(targets=targets))
-    words = ["calibrate", str(tmp_path / "disc.toml"), "--targets", str(tmp_path / "targets.toml"), "--size", "10 mm"]
+    words = ["calibrate", str(tmp_path / "disc.toml"), "--targets", str(tmp_path / "targets.toml"), "--size", "14 mm"]
     assert main([*words, "--snapshots", "1", "--starts", "1", "--runs", "4", "--out", str(tmp_path / "out")]) == 0
     record = json.loads((tmp_path / "out" / "calibration.json").read_text())
     grip = next(p for p in record["inputs"] if p["name"] == "grip")
