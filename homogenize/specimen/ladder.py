@@ -40,6 +40,7 @@ Progress = Callable[[float, str], None]
 
 TENSION = 2000.0
 SHEAR = 500.0
+LOAD_STEPS = (0.25, 0.5, 0.75, 1.0)
 SOFT = 1e9
 """Young's modulus [Pa] below which a part is neo-Hookean on the rung of large displacements."""
 _LOADS = (LoadCase("tension", TENSION), LoadCase("shear", SHEAR, "x"), LoadCase("shear", SHEAR, "y"))
@@ -96,17 +97,19 @@ def large_displacement_rung(
     name: str,
     specimen: Specimen,
     mesh: CrossSectionMesh,
-    shares: Sequence[float] = (0.25, 0.5, 0.75, 1.0),
+    shares: Sequence[float] = LOAD_STEPS,
     progress: Progress | None = None,
     remark: str = "",
 ) -> Rung:
     """Bonded, followed with large displacements; moduli are slopes of the line fitted to all shares, G the mean of both signs.
 
-    Soft parts are neo-Hookean.
+    Soft parts are neo-Hookean. The volume strain is that of the linear specimen, so that small loads have its numbers on the same mesh.
     """
     loads = [_LOADS[0], *(replace(load, size=s * load.size) for load in _LOADS[1:] for s in (1, -1))]
     soft = [r.name for r in mesh.regions if isinstance(r.material, Material) and r.material.E < SOFT]
-    followed = follow_specimen(specimen, mesh, loads, shares=tuple(shares), neo_hookean=soft, progress=progress)
+    followed = follow_specimen(
+        specimen, mesh, loads, shares=tuple(shares), volume_strain="full", neo_hookean=soft, progress=progress
+    )
     return _signed_rung(name, [followed_modulus(one, specimen.length) for one in followed], remark)
 
 
@@ -189,7 +192,10 @@ def ladder_steps(
         steps.append(Step(name, lambda tell: opening_rung(name, short, few, law, progress=tell, remark=law.describe())))
     if large:
         last = "large displacements"
-        steps.append(Step(last, lambda tell: large_displacement_rung(last, short, few, progress=tell)))
+        remark = f"{len(LOAD_STEPS)} load steps, bonded"
+        steps.append(
+            Step(last, lambda tell: large_displacement_rung(last, short, few, LOAD_STEPS, progress=tell, remark=remark))
+        )
     return tuple(steps)
 
 
