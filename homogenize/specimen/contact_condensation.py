@@ -168,7 +168,7 @@ def _condensed(
     rows = sp.csr_array(sp.vstack([make(specimen, mesh, bodies) for make in (face_rows, strain_rows, resultant_rows)]))
 
     def watch(done: int, count: int) -> None:
-        tell(0.1 + 0.8 * done / count, f"condensing {count} jumps")
+        tell(0.1 + 0.8 * done / count, f"condensing {len(springs)} jumps")
 
     F, V, j_f, o_f = bodies.flexibility(rows, watch)
     tell(0.9, f"joining the bodies by {len(springs)} springs")

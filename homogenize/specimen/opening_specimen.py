@@ -29,8 +29,8 @@ TOLERANCE = 1e-7
 MOST_ITERATIONS = 25
 MOST_CUTS = 4
 MOST_FROZEN = 8
-_DIRECT = 600
-"""Jumps up to which a Newton step is solved directly; above that by GMRES, to a thousandth."""
+_DIRECT = 6000
+"""Jumps up to which a Newton step is solved directly (2 s at 4000); above that by GMRES, to a thousandth."""
 _SHARES = (1.0, 0.5, 0.25, 0.1, 0.03)
 """Of a Newton step, tried one after another until the residual falls."""
 

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from section_meshes import rings
 
-from geometry.errors import SpecError
+from geometry.errors import ConvergenceError, SpecError
 from homogenize.interface_choice import Interfaces
 from homogenize.sliding_interface import Frictionless
-from homogenize.specimen import AxialGrading, LoadCase, Specimen, solve_specimen
-from homogenize.specimen.contact_condensation import contact_specimen
+from homogenize.specimen import AxialGrading, Held, LoadCase, Plate, Specimen, solve_specimen
+from homogenize.specimen.axial_basis import AxialBasis
+from homogenize.specimen.contact_condensation import contact_specimen, imbalance
 from homogenize.specimen.frictional_contact import ContactConstants, FrictionalContact, at_rest, contact_law
 from homogenize.specimen.opening_specimen import contact_path, even_and_odd, initial_state
 
@@ -165,3 +166,49 @@ def test_what_is_not_a_contact_is_refused():
         FrictionalContact(0.3, grip=1e5, gap=1e-5)
     with pytest.raises(SpecError, match="positive"):
         FrictionalContact(-0.1)
+    with pytest.raises(SpecError, match="at least one load"):
+        contact_specimen(specimen(Interfaces({NAME: FrictionalContact(0.3)})), section(), [])
+
+
+def test_forces_balance_whatever_opens(condensed):
+    """Reactions against the load, open or not; the imbalance is that of the layers, below the limit of the linear specimen."""
+    for k in (0, 1):
+        step = contact_path(condensed, k, [1.0])[-1]
+        assert step.open_share(condensed.area) > 0.05
+        assert imbalance(step.resultants, LENGTH) < 1e-2
+        np.testing.assert_allclose(step.resultants[6:9], LOADS[k].size * LOADS[k].direction, atol=1e-9 * LOADS[k].size)
+
+
+class ThickLayers:
+    """One quadratic layer as long as the specimen: a grading of its own, which the lay does not thin."""
+
+    def basis(self, length, diameter):
+        return AxialBasis(np.array([0.0, length]), 2)
+
+
+def test_layers_too_thick_for_the_lay_are_refused():
+    """How much is missing, why, and what to try."""
+    thick = replace(specimen(Interfaces({NAME: FrictionalContact(0.3)})), grading=ThickLayers())
+    with pytest.raises(ConvergenceError, match=r"out of balance by .* turns by 1.6 rad.*take layers of .* or degree 3"):
+        contact_specimen(thick, section(), LOADS)
+
+
+@pytest.mark.parametrize(
+    "ends", [{"loaded": Plate(twist=False)}, {"held": Held(("part 0", "part 1"))}], ids=["plate", "held parts"]
+)
+def test_pressed_and_rough_is_bonded_at_other_ends(ends):
+    """A plate that meets reactions; an end held by the names of its parts. rtol 2e-3: the interface yields by 1e-12 m/Pa."""
+    law = FrictionalContact(10.0, grip=1e9, normal=1e12, tangential=1e12)
+    held = contact_specimen(replace(specimen(Interfaces({NAME: law})), **ends), section(), LOADS)
+    bonded = solve_specimen(replace(specimen("bonded"), **ends), section(), LOADS, tolerance=1e-7)
+    for k, axis in ((0, 2), (1, 0)):
+        weight = bonded.F[:, -1, k] / abs(LOADS[k].size)
+        found = mean_end(held, contact_path(held, k, [1.0])[-1])[axis]
+        assert found == pytest.approx(weight @ bonded.U[:, -1, k], rel=2e-3)
+
+
+def test_a_body_that_nothing_holds_is_refused():
+    """Only the core is held, and it may leave its hole."""
+    loose = replace(specimen(Interfaces({NAME: FrictionalContact(0.3)})), held=Held(("part 0",)))
+    with pytest.raises(SpecError, match="part 1 is held by nothing"):
+        contact_specimen(loose, section(), LOADS)
