@@ -32,7 +32,7 @@ def main(name: str = CABLE) -> None:
     mesh, few = specimen_mesh(cable), coarse_section(cable)
     case = cable.specimen
     specimen = Specimen(LENGTH) if case is None else Specimen(case.length, phase=case.phase)
-    key = inputs_key((mesh, few), specimen, CONTACT, COARSE)
+    key = inputs_key(cable.numbers, len(mesh.cells), len(few.cells), specimen, CONTACT, COARSE)
     about = f"{cable.name}, {1e3 * specimen.length:g} mm, {len(mesh.cells)} triangles"
     rungs = ladder(
         ladder_steps(mesh, specimen, contact=CONTACT, coarse=few, coarse_grading=COARSE),

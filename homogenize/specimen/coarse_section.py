@@ -70,7 +70,7 @@ def coarse_section(
         tags, places, _ = gmsh.model.mesh.getNodes()
         number = np.zeros(int(tags.max()) + 1, dtype=np.int64)
         number[tags] = np.arange(len(tags))
-        cells, region_of, parts = [], [], list(dict.fromkeys(part_of.values()))
+        cells, region_of, parts = [], [], [part for part in cable.parts if part in part_of.values()]
         for _, tag in gmsh.model.getEntities(2):
             for nodes in gmsh.model.mesh.getElements(2, tag)[2]:
                 found = number[nodes.astype(np.int64)].reshape(-1, 6)

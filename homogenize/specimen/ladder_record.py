@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import asdict, fields
 from pathlib import Path
 
-from geometry.cell_mesh import CrossSectionMesh
 from geometry.errors import InputError
 from homogenize.specimen.ladder import Rung
 
@@ -56,12 +55,9 @@ def kept_rungs(path: Path, key: str) -> tuple[Rung, ...]:
     return rungs if about == key else ()
 
 
-def inputs_key(meshes: Sequence[CrossSectionMesh], *settings: object) -> str:
-    """A digest of all that a ladder is computed from; `settings` by their repr."""
-    digest = hashlib.sha256()
-    for mesh in meshes:
-        for array in (mesh.points, mesh.cells, mesh.region_of):
-            digest.update(array.tobytes())
-        digest.update(repr((mesh.regions, mesh.twist_rate)).encode())
-    digest.update(repr(settings).encode())
-    return digest.hexdigest()
+def inputs_key(*inputs: object) -> str:
+    """A digest of all that a ladder is computed from, by the repr of each: numbers of the cable, specimen, laws, sizes of meshes.
+
+    Not the nodes of a mesh, which curved elements have only to rounding.
+    """
+    return hashlib.sha256(repr(inputs).encode()).hexdigest()
