@@ -74,7 +74,8 @@ class SeparateBodies:
         seen = sp.csc_array(sp.vstack([self.jumps, rows]) @ self.A)
         forces = np.asarray(self.A.T @ self.forces)
         p = self.count
-        found, base = np.zeros((seen.shape[0], p)), np.zeros((seen.shape[0], forces.shape[1]))
+        count = p + len(rows.indptr) - 1
+        found, base = np.zeros((count, p)), np.zeros((count, len(forces[0])))
         bodies, body = sp.csgraph.connected_components(free, directed=False)
         done = 0
         for k in range(bodies):
