@@ -78,7 +78,7 @@ status = "assumed"
 reason = "made up"
 """
 TARGET = '[[targets]]\nname = "{}"\nvalue = "{} {}"\nerror = 0.01\nload = "x"\nsource = "made up"\n'
-RUN = ("--size", "8 mm", "--coarse", "10 mm", "--snapshots", "3", "--starts", "1", "--runs", "4")
+RUN = ("--size", "11 mm", "--coarse", "14 mm", "--snapshots", "3", "--starts", "1", "--runs", "4")
 
 
 @pytest.fixture(scope="module")
@@ -89,7 +89,7 @@ def made(tmp_path_factory):
     (folder / "truth.toml").write_text(
         CABLE.replace('"400 MPa"', '"250 MPa"').replace('"5 MPa", status', '"8 MPa", status')
     )
-    mesh = specimen_mesh(read_cable(folder / "truth.toml"), 8e-3)
+    mesh = specimen_mesh(read_cable(folder / "truth.toml"), 11e-3)
     truth = unit_response(solve_specimen(Specimen(0.1), mesh, UNIT_LOADS, tolerance=1e-4)).outputs(2000.0, 500.0)
     units = {"E": "Pa", "u_z": "m", "u_x": "m"}
     targets = "".join(TARGET.format(name, float(truth[name]), unit) for name, unit in units.items())
@@ -155,7 +155,16 @@ def test_stiffness_of_an_interface_is_found_again(tmp_path):
     truth = unit_response(solve_specimen(held, mesh, UNIT_LOADS, tolerance=1e-3)).outputs(2000.0, 500.0)
     targets = "".join(TARGET.format(n, float(truth[n]), u) for n, u in (("E", "Pa"), ("u_x", "m")))
     (tmp_path / "targets.toml").write_text(INTERFACE.format(targets=targets))
-    words = ["calibrate", str(tmp_path / "disc.toml"), "--targets", str(tmp_path / "targets.toml"), "--size", "14 mm"]
+    words = [
+        "calibrate",
+        str(tmp_path / "disc.toml"),
+        "--targets",
+        str(tmp_path / "targets.toml"),
+        "--size",
+        "14 mm",
+        "--coarse",
+        "14 mm",
+    ]
     assert main([*words, "--snapshots", "1", "--starts", "1", "--runs", "4", "--out", str(tmp_path / "out")]) == 0
     record = json.loads((tmp_path / "out" / "calibration.json").read_text())
     grip = next(p for p in record["inputs"] if p["name"] == "grip")
