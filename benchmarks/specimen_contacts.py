@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from geometry import Cable, CrossSectionMesh, read_cable
+from geometry.errors import ConvergenceError
 from geometry.material import Material
 from homogenize import Interfaces
 from homogenize.specimen import (
@@ -190,7 +191,7 @@ def main() -> None:
             began = time.process_time()
             try:
                 rows[name] = solve_case(replace(specimen, constants=group.cases[name](specimen)), began)
-            except Exception as error:  # the campaign goes on; the table says which case is missing
+            except ConvergenceError as error:  # the campaign goes on; the case is missing from the table
                 print(f"{name}: {error}", flush=True)
                 continue
             write_record(rows)
