@@ -59,7 +59,7 @@ def ladder_plot(rungs: Sequence[Rung], title: str = "") -> Any:
 def _draw_misfit(axes: Any, rungs: Sequence[Rung], heights: Any) -> None:
     misfit = [rung.misfit(PUBLISHED) for rung in rungs]
     axes.set_xscale("log")
-    axes.set_xlim(min(misfit) / 3, max(misfit) * 3)
+    axes.set_xlim(min(misfit) / 6, max(misfit) * 4)
     axes.plot(misfit, heights[:-1], "o-", color=ORANGE, ms=7, lw=1.6)
     for m, before, h in zip(misfit, [0.0, *misfit], heights):
         at, side = ((-7, -4), "right") if before > 1.3 * m else ((8, 4), "left")  # beside the line that comes down
