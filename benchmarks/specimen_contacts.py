@@ -137,9 +137,10 @@ GROUPS = (
         {
             "held": everywhere(**HELD),
             "no grip, no gap": everywhere(),
+            "no grip, no gap, friction 0.1": everywhere(friction=0.1),
             "power core 1 in a gap of 0.2 mm": at_member("power core 1", gap=2e-4),
-            **{f"interference {d} mm": everywhere(gap=-1e-3 * d) for d in (0.01, 0.03, 0.1, 0.3)},
-            **{f"interference {d} mm at power core 1": at_member("power core 1", gap=-1e-3 * d) for d in (0.1, 0.3)},
+            **{f"interference {d} mm": everywhere(gap=-1e-3 * d) for d in (0.02, 0.05, 0.2)},
+            **{f"interference {d} mm at power core 1": at_member("power core 1", gap=-1e-3 * d) for d in (0.05, 0.2)},
             **{f"grip {p} kPa": everywhere(grip=1e3 * p) for p in (50, 200, 1000)},
         },
     ),
@@ -147,6 +148,7 @@ GROUPS = (
         "core-filler",
         {
             "soft insulation on power core 1, held": everywhere(**HELD),
+            "soft insulation on power core 1, no grip": everywhere(),
             "soft insulation on power core 1, grip 200 kPa": everywhere(grip=2e5),
         },
         softer("power core 1", "insulation", 11e6),
@@ -155,6 +157,7 @@ GROUPS = (
         "core-filler",
         {
             "soft control conductor, held": everywhere(**HELD),
+            "soft control conductor, no grip": everywhere(),
             "soft control conductor, grip 200 kPa": everywhere(grip=2e5),
         },
         softer("control core", "conductor", 7e9),

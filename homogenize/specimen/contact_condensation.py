@@ -46,7 +46,7 @@ FloatArray = NDArray[np.float64]
 Progress = Callable[[float, str], None]
 
 MOST_JUMPS = 9000
-"""Three for each contact point; their matrix is dense (0.65 GB at this number)."""
+"""Three for each contact point; their two matrices are dense (0.65 GB each at this number)."""
 CONTACT_GRADING = AxialGrading(end_size=0.24, largest=0.9, growth=4.0, degree=3)
 """Few layers whose forces are still in balance within a percent: 19 stations on 182 mm of a cable of 50 mm laid in 388 mm."""
 
@@ -64,6 +64,7 @@ class ContactSpecimen:
     link : (p,) number of the interface node of the section
     parts : (p,) the two parts in words
     compliance : C~ (3 p, 3 p) [m/N]
+    flexibility : F (3 p, 3 p) of the bodies apart from each other [m/N]
     jump : j_0 (3 p, loads) [m]
     observed : o_0 (o, loads)
     columns : V~ (o, 3 p)
@@ -82,6 +83,7 @@ class ContactSpecimen:
     link: NDArray[np.int64]
     parts: tuple[tuple[str, str], ...]
     compliance: FloatArray
+    flexibility: FloatArray
     jump: FloatArray
     observed: FloatArray
     columns: FloatArray
@@ -130,7 +132,7 @@ def contact_specimen(
     length_of_station = axis.matrices[0].sum(axis=1)[bodies.first :]
     area = (length_of_station[:, None] * sliding.doubled.surface[sliding.opening]).ravel()
     springs = (np.stack([constants.normal, constants.tangential, constants.tangential], axis=1) * area[:, None]).ravel()
-    compliance, columns, jump, observed = _condensed(specimen, mesh, bodies, springs, tell)
+    compliance, flexibility, columns, jump, observed = _condensed(specimen, mesh, bodies, springs, tell)
     X, Y = sliding.doubled.nodes[:, sliding.doubled.child[sliding.opening]]
     names = [region.name for region in mesh.regions]
     field = bodies.system.field
@@ -145,6 +147,7 @@ def contact_specimen(
         link=np.tile(np.arange(links), len(stations)),
         parts=tuple((names[a], names[b]) for a, b in sliding.doubled.regions[sliding.opening]) * len(stations),
         compliance=compliance,
+        flexibility=flexibility,
         jump=jump,
         observed=observed,
         columns=columns,
@@ -162,8 +165,8 @@ def _constants(of_links: Callable[[str], FloatArray], opening: NDArray[np.int64]
 
 def _condensed(
     specimen: Specimen, mesh: CrossSectionMesh, bodies: SeparateBodies, springs: FloatArray, tell: Progress
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """C~, V~, j_0, o_0."""
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+    """C~, F, V~, j_0, o_0."""
     tell(0.0, "factoring the bodies apart from each other")
     rows = sp.csr_array(sp.vstack([make(specimen, mesh, bodies) for make in (face_rows, strain_rows, resultant_rows)]))
 
@@ -173,15 +176,16 @@ def _condensed(
     F, V, j_f, o_f = bodies.flexibility(rows, watch)
     tell(0.9, f"joining the bodies by {len(springs)} springs")
     give = 1 / springs
-    F[np.diag_indices_from(F)] += give
-    inverse = _inverse(F)
+    inverse = F.copy(order="F")
+    inverse[np.diag_indices_from(F)] += give
+    inverse = _inverse(inverse)
     pull = inverse @ j_f
     observed = o_f - V @ pull
     columns = (V @ inverse) * give
     inverse *= -give
     inverse *= give[:, None]
     inverse[np.diag_indices_from(inverse)] += give
-    return inverse, columns, give[:, None] * pull, observed
+    return inverse, F, columns, give[:, None] * pull, observed
 
 
 def _inverse(G: FloatArray) -> FloatArray:

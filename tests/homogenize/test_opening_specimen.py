@@ -26,7 +26,7 @@ def specimen(interface):
     return Specimen(LENGTH, interface=interface, grading=GRADING)
 
 
-def section(inner=(60e6, 0.3), outer=(4e6, 0.45), lay=0.2):
+def section(inner=(60e6, 0.3), outer=(4e6, 0.45), lay: float | None = 0.2):
     return rings(RADII, inner, outer, around=8, per_ring=1, twist_rate=2 * np.pi / lay if lay else 0.0)
 
 
@@ -34,7 +34,7 @@ def contact(mesh, **law):
     return contact_specimen(specimen(Interfaces({NAME: FrictionalContact(**law)})), mesh, LOADS)
 
 
-def with_law(condensed, friction, grip=0.0, gap=0.0):
+def with_law(condensed, friction, grip=0.0, gap: float | np.ndarray = 0.0):
     """The same condensed specimen with other constants."""
     one = np.ones(len(condensed.area))
     c = condensed.constants
