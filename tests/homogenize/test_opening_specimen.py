@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import nnls
 from section_meshes import rings
 
 from geometry.errors import ConvergenceError, SpecError
@@ -212,3 +213,54 @@ def test_a_body_that_nothing_holds_is_refused():
     loose = replace(specimen(Interfaces({NAME: FrictionalContact(0.3)})), held=Held(("part 0",)))
     with pytest.raises(SpecError, match="part 1 is held by nothing"):
         contact_specimen(loose, section(), LOADS)
+
+
+def test_smooth_contact_that_opens_has_the_forces_of_least_energy(condensed):
+    """No grip, no friction: pressures p a >= 0 that minimise p.G p / 2 + p.g_f, G = F + 1 / k a, g_f the opening of bodies without contact.
+
+    Found apart by non-negative least squares on the Cholesky factor of G. rtol 1e-5 of the largest: 1e-7 of a jump, hard springs.
+    """
+    springs = condensed.springs()
+    give = condensed.flexibility[::3, ::3] + np.diag(1 / springs[::3])
+    held = condensed.jump[:, 1]
+    apart = (held + condensed.flexibility @ (springs * held))[::3]
+    factor = np.linalg.cholesky(give)
+    forces, _ = nnls(factor.T, -np.linalg.solve(factor, apart), maxiter=10000)
+    step = contact_path(with_law(condensed, 0.0), 1, [1.0])[-1]
+    found = step.state.pressure * condensed.area
+    assert 0.3 < (forces == 0).mean() < 0.7
+    np.testing.assert_allclose(found, forces, atol=1e-5 * forces.max())
+
+
+@pytest.fixture(scope="module")
+def rough(condensed):
+    """No grip, friction 1, across: half the points open and most others slip."""
+    law = with_law(condensed, 1.0)
+    return law, contact_path(law, 1, [1.0])[-1]
+
+
+def test_rough_contact_that_opens_settles(rough):
+    """Jumps are those of the bodies apart under the forces; shear within the cone, and against the slip where it is at its edge.
+
+    atol 1e-6 of the largest jump: 1e-7 of a holding one, which are a hundred times smaller, by forces on far softer bodies.
+    """
+    law, step = rough
+    state, springs, held = step.state, law.springs(), law.jump[:, 1]
+    forces = law.area[:, None] * np.column_stack([-state.pressure, state.shear])
+    jump = held + law.flexibility @ (springs * held - forces.ravel())
+    np.testing.assert_allclose(state.jump.ravel(), jump, atol=1e-6 * np.abs(jump).max())
+    assert 0.3 < step.open_share(law.area) < 0.7
+    size = np.linalg.norm(state.shear, axis=1)
+    slips = ~state.open() & (size > (1 - 1e-9) * state.pressure)
+    assert (size <= state.pressure * (1 + 1e-9)).all() and not size[state.open()].any()
+    assert slips.sum() > 0.5 * (~state.open()).sum()
+    along = (state.shear * state.jump[:, 1:]).sum(axis=1)[slips]
+    np.testing.assert_allclose(along, size[slips] * np.linalg.norm(state.jump[slips, 1:], axis=1), rtol=1e-9)
+
+
+def test_without_grip_or_gap_displacements_are_proportional_to_the_load(rough):
+    """Contact and Coulomb's law know no length and no stress: thirty times the load opens the same points. rtol 1e-5: 1e-7 of a jump."""
+    law, step = rough
+    larger = contact_path(law, 1, [30.0])[-1]
+    np.testing.assert_allclose(larger.face, 30 * step.face, atol=1e-5 * np.abs(larger.face).max())
+    assert (larger.state.open() == step.state.open()).all()
