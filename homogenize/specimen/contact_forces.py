@@ -17,6 +17,7 @@ Haslinger, Math. Methods Appl. Sci. 5 (1983) 422-437, doi 10.1002/mma.1670050127
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import scipy.linalg as la
@@ -32,6 +33,10 @@ MOST_STEPS = 80
 """Newton steps with friction frozen."""
 MOST_PRESSURES = 40
 MOST_COULOMB = 12
+_SOFT = (1e-3, 1e-2, 1e-1)
+"""Of the tangential stiffness, one after another before the whole: if hard, a Newton step moves a front of slip by one ring of points."""
+_ROUGHLY = 1e4
+"""Error that a softened contact is allowed, over that of the contact itself."""
 _NEAR = 3e-2
 """Change of the pressures, over the largest, below which Coulomb's law itself is tried."""
 _SLACK = 0.2
@@ -54,6 +59,11 @@ def contact_forces(
     """
     problem = _Problem(specimen, base, before, tolerance * size)
     forces, pressed = problem.law(start, None)[1], before.pressure
+    if pressed.any():
+        for share in _SOFT:
+            softened = replace(specimen.constants, tangential=share * specimen.constants.tangential)
+            rough = _Problem(specimen, base, before, _ROUGHLY * tolerance * size, softened)
+            forces, _ = rough.frozen(forces, pressed)
     for _ in range(MOST_PRESSURES):
         forces, settled = problem.frozen(forces, pressed)
         if not settled:
@@ -74,9 +84,16 @@ def contact_forces(
 class _Problem:
     """One load step."""
 
-    def __init__(self, specimen: ContactSpecimen, base: FloatArray, before: ContactState, allowed: float) -> None:
+    def __init__(
+        self,
+        specimen: ContactSpecimen,
+        base: FloatArray,
+        before: ContactState,
+        allowed: float,
+        constants: ContactConstants | None = None,
+    ) -> None:
         self.F, self.C = specimen.flexibility, specimen.compliance
-        self.constants: ContactConstants = specimen.constants
+        self.constants = constants or specimen.constants
         self.before, self.allowed = before, allowed
         self.area = specimen.area
         self.free = base + self.F @ (specimen.springs() * base)
