@@ -25,8 +25,9 @@ from beam.hermite import hermite_values
 Array = NDArray[np.float64]
 
 PLANE, CYLINDER = 0.0, 1.0
-PARAMETERS = 23
-"""kind, kn, cn, mu, kt, ct, normal (6:9), offset, centre (10:13), its velocity (13:16), radius, box low (17:20), high (20:23)."""
+PARAMETERS = 26
+"""kind, kn, cn, mu, kt, ct, normal (6:9), offset, centre (10:13), its velocity (13:16), radius, box low (17:20), high (20:23),
+turning about z: angular velocity, cosine and sine of the angle."""
 
 
 @kernel
@@ -104,7 +105,7 @@ def point_contact(
 ) -> tuple[float, float, float, float, float, float, float, float]:  # fmt: skip
     """One contact point: f_n, normal, friction, distance from the axis; adds to `report`.
 
-    Writes the anchor to commit (`moved`, relative to the surface's centre). f_n is -1 without contact.
+    Writes the anchor to commit (`moved`, relative to the surface's centre, turning with it). f_n is -1 without contact.
     """
     N0, N1, N2, N3 = N[g, 0], N[g, 1], N[g, 2], N[g, 3]
     x0 = (N0 * q[e, 0] + N1 * q[e, 3]) + (N2 * q[e + 1, 0] + N3 * q[e + 1, 3])
@@ -114,8 +115,9 @@ def point_contact(
     if gap <= 0.0:
         moved[j, 0] = np.nan
         return -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    u0 = (N0 * v[e, 0] + N1 * v[e, 3]) + (N2 * v[e + 1, 0] + N3 * v[e + 1, 3]) - p[13]
-    u1 = (N0 * v[e, 1] + N1 * v[e, 4]) + (N2 * v[e + 1, 1] + N3 * v[e + 1, 4]) - p[14]
+    w0, w1 = p[13] - p[23] * (x1 - p[11]), p[14] + p[23] * (x0 - p[10])
+    u0 = (N0 * v[e, 0] + N1 * v[e, 3]) + (N2 * v[e + 1, 0] + N3 * v[e + 1, 3]) - w0
+    u1 = (N0 * v[e, 1] + N1 * v[e, 4]) + (N2 * v[e + 1, 1] + N3 * v[e + 1, 4]) - w1
     u2 = (N0 * v[e, 2] + N1 * v[e, 5]) + (N2 * v[e + 1, 2] + N3 * v[e + 1, 5]) - p[15]
     closing = -(n0 * u0 + n1 * u1 + n2 * u2)
     fn = max(p[1] * gap + p[2] * closing, 0.0)
@@ -125,7 +127,11 @@ def point_contact(
     if p[3] > 0.0:
         limit = p[3] * fn
         y0, y1, y2 = x0 - p[10], x1 - p[11], x2 - p[12]
-        a0, a1, a2 = anchors[j, 0], anchors[j, 1], anchors[j, 2]
+        a0, a1, a2 = (
+            anchors[j, 0] * p[24] - anchors[j, 1] * p[25],
+            anchors[j, 0] * p[25] + anchors[j, 1] * p[24],
+            anchors[j, 2],
+        )
         if a0 != a0:
             a0, a1, a2 = y0, y1, y2
         b0, b1, b2, t0, t1, t2 = bristle(p, y0, y1, y2, a0, a1, a2, u0, u1, u2, n0, n1, n2, closing)
@@ -135,13 +141,13 @@ def point_contact(
             t0, t1, t2 = scale * t0, scale * t1, scale * t2
             b0, b1, b2 = -t0 / p[4], -t1 / p[4], -t2 / p[4]
             a0, a1, a2 = y0 - b0, y1 - b1, y2 - b2
-        moved[j, 0], moved[j, 1], moved[j, 2] = a0, a1, a2
+        moved[j, 0], moved[j, 1], moved[j, 2] = a0 * p[24] + a1 * p[25], a1 * p[24] - a0 * p[25], a2
         report[1] += weight * 0.5 * p[4] * (b0 * b0 + b1 * b1 + b2 * b2)
         report[3] -= weight * (t0 * u0 + t1 * u1 + t2 * u2)
     else:
         moved[j, 0] = np.nan
     f0, f1, f2 = fn * n0 + t0, fn * n1 + t1, fn * n2 + t2
-    report[4] += weight * (f0 * p[13] + f1 * p[14] + f2 * p[15])
+    report[4] += weight * (f0 * w0 + f1 * w1 + f2 * p[15])
     if gap > report[5]:
         report[5], report[6] = gap, e
     return fn, n0, n1, n2, t0, t1, t2, distance
@@ -164,8 +170,14 @@ def point_tangent(
             u[i] += N[g, k] * v[e + k // 2, 3 * (k % 2) + i]
         x[i] -= p[10 + i]
         u[i] -= p[13 + i]
+    u[0] += p[23] * x[1]
+    u[1] -= p[23] * x[0]
     closing = -(n[0] * u[0] + n[1] * u[1] + n[2] * u[2])
-    a0, a1, a2 = anchors[j, 0], anchors[j, 1], anchors[j, 2]
+    a0, a1, a2 = (
+        anchors[j, 0] * p[24] - anchors[j, 1] * p[25],
+        anchors[j, 0] * p[25] + anchors[j, 1] * p[24],
+        anchors[j, 2],
+    )
     if a0 != a0:
         a0, a1, a2 = x[0], x[1], x[2]
     _, _, _, t0, t1, t2 = bristle(
@@ -251,7 +263,7 @@ def contact_forces(
     F: Array, nodal: Array, friction: Array, reports: Array, cone: Array, collect: bool,
     want_tangent: bool, factor: float, D: Array, U: Array, L: Array,
 ) -> None:  # fmt: skip
-    """:func:`contact_force` of all surfaces: parameters `P` (surfaces, 23), contact points of surface k from `first`[k] on.
+    """:func:`contact_force` of all surfaces: parameters `P` (surfaces, 26), contact points of surface k from `first`[k] on.
 
     `anchors`, `moved` (n points, 3) and `cone` (n points,) hold the surfaces one after the other; `reports` (surfaces, 7).
     """

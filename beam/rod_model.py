@@ -24,7 +24,7 @@ from beam.section_memory import (
     section_force_tangent,
     strains,
 )
-from beam.surface import Surface, Travel
+from beam.surface import FreeTurn, Surface, Travel, turn_surface
 from geometry.errors import SpecError
 
 Array = NDArray[np.float64]
@@ -147,6 +147,7 @@ class RodModel:
         self.first = np.concatenate([[0], np.cumsum([s.points for s in self.surfaces])]).astype(np.int64)
         self.xs = np.concatenate([np.empty(0), *(x for x, _ in points)])
         self.ws = np.concatenate([np.empty(0), *(w for _, w in points)])
+        self.free_rollers = [k for k, s in enumerate(self.surfaces) if isinstance(getattr(s, "turn", None), FreeTurn)]
         self._empty = Blocks.zeros(2, self.rod.dof)
 
     @property
@@ -191,13 +192,16 @@ class RodModel:
             values[here, 2] = ddu[axes]
         return values
 
-    def surface_parameters(self, t: float, friction: bool = True) -> Array:
-        """What the contact kernel reads of the surfaces at time `t`, (surfaces, 23)."""
+    def surface_parameters(self, t: float, friction: bool = True, turned: Array | None = None) -> Array:
+        """What the contact kernel reads of the surfaces at time `t`, (surfaces, 26); `turned` (free rollers, 2) angle, speed."""
         P = np.empty((len(self.surfaces), PARAMETERS))
         for row, surface in zip(P, self.surfaces, strict=True):
             row[:] = surface.parameters(t)
         if not friction:
             P[:, 3] = 0.0
+        if turned is not None:
+            for k, (angle, speed) in zip(self.free_rollers, turned, strict=True):
+                turn_surface(P[k], angle, speed)
         return P
 
     def join(self, anchors: list[Array]) -> Array:
@@ -214,12 +218,12 @@ class RodModel:
         self, t: float, q: Array, v: Array, anchors: list[Array], friction: bool = True,
         blocks: Blocks | None = None, factor: float = 0.0,
         memory: SectionMemory | None = None, dt: float | None = LONG,
-        a: Array | None = None, factor_a: float = 0.0,
+        a: Array | None = None, factor_a: float = 0.0, turned: Array | None = None,
     ) -> Forces:  # fmt: skip
         """F(q, v, t), with the accelerations `a` M(q) a + F; with `blocks`, also its dF/dq + factor dF/dv + factor_a dF/da.
 
         A section law goes in the time `dt` [s] from `memory` (fresh if not given) to the strains of `q`; with None, the
-        forces that it has in `memory` are taken as they are.
+        forces that it has in `memory` are taken as they are. `turned` (free rollers, 2) holds their angles and speeds.
         """
         rod, nodes, n = self.arrays, self.rod.nodes, self.rod.lengths.size
         joined = self.join(anchors)
@@ -246,7 +250,7 @@ class RodModel:
             self._add_law(self.law, q, blocks, memory, dt, out)
         reports = np.zeros((len(self.surfaces), 7))
         contact_forces(
-            self.surface_parameters(t, friction), self.first, self.xs, self.ws, q, v, rod.lengths, joined, moved, out.F,
+            self.surface_parameters(t, friction, turned), self.first, self.xs, self.ws, q, v, rod.lengths, joined, moved, out.F,
             out.contact, out.friction, reports, cone, True, blocks is not None, factor, matrix.D, matrix.U, matrix.L,
         )  # fmt: skip
         self.add_reports(out, reports)
