@@ -105,7 +105,9 @@ class ContactState:
         return float(_share(self.normal[self.slips].sum(), self.normal.sum()))
 
 
-def contact_states(model: RodModel, t: float, q: Array, v: Array, anchors: list[Array]) -> list[ContactState]:
+def contact_states(
+    model: RodModel, t: float, q: Array, v: Array, anchors: list[Array], turned: Array | None = None
+) -> list[ContactState]:
     """State of the contacts of every surface of `model` at time `t` [s].
 
     Parameters
@@ -115,9 +117,11 @@ def contact_states(model: RodModel, t: float, q: Array, v: Array, anchors: list[
     q, v : (n + 1, dof) array
     anchors : list of array
         Friction anchors before the step that led to this state, see :attr:`beam.generalized_alpha.Integrator.contacts`.
+    turned : (rollers, 2) array, optional
+        Angles and speeds of the free rollers.
     """
     lengths, out = model.rod.lengths, []
-    P = model.surface_parameters(t)
+    P = model.surface_parameters(t, turned=turned)
     for k, (p, anchor) in enumerate(zip(P, anchors, strict=True)):
         i, j = model.first[k], model.first[k + 1]
         table = np.empty((lengths.size * (j - i), 8))

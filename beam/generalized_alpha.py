@@ -31,7 +31,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beam.contact_state import ContactState, contact_states
 from beam.energy_ledger import EnergyLedger
+from beam.free_roller import FreeRollers
 from beam.linear_solve import Factor
 from beam.newton_step import (
     CONVERGED,
@@ -95,6 +97,7 @@ class StepSettings:
 KEPT = (
     "_state", "t", "counters", "outcome", "_anchors", "_anchors_before", "memory", "deepest", "step_error", "error_sum",
     "_last_iterations", "_worst", "_ticks", "_level", "_easy", "_matrix", "_known", "_factor_step", "_factor", "_held_force",
+    "rollers",
 )  # fmt: skip
 """What a run consists of besides its model and settings."""
 
@@ -131,6 +134,8 @@ class Integrator:
         Largest own error of a step in position, and the node and time of it.
     error_sum : float
         Sum of the own errors of all steps [m].
+    rollers : FreeRollers
+        Angles and speeds of the rollers that the cable turns.
     """
 
     def __init__(
@@ -157,6 +162,7 @@ class Integrator:
             anchors = model.forces(0.0, self.q, self.v, model.fresh_anchors(), friction=False).moved
         self._anchors = self._anchors_before = model.join(anchors)
         self.memory = memory
+        self.rollers = FreeRollers(model)
         self.deepest: tuple[float, str] = (0.0, "")
         self.step_error: tuple[float, str] = (0.0, "")
         self.error_sum = 0.0
@@ -234,10 +240,16 @@ class Integrator:
     def forces(self) -> Forces:
         """Everything about the forces of the present state, inertia contained; worked out when it is asked for."""
         if self._forces is None:
-            self._forces = self.model.forces(
-                self.t, self.q, self.v, self.model.split(self._anchors_before), a=self.a
-            )  # fmt: skip
+            before, rollers = self.model.split(self._anchors_before), self.rollers
+            self._forces = self.model.forces(self.t, self.q, self.v, before, a=self.a, turned=rollers.turned)
+            rollers.book(self.model, self.t, self.q, self.v, before, rollers.state, self._forces)
         return self._forces
+
+    @property
+    def contacts(self) -> list[ContactState]:
+        """Gap, normal force, friction and slip of every contact point, one entry for each surface."""
+        before = self.model.split(self._anchors_before)
+        return contact_states(self.model, self.t, self.q, self.v, before, self.rollers.turned)
 
     @property
     def reaction(self) -> Array:
@@ -274,7 +286,8 @@ class Integrator:
         am, af, gamma, beta = self.settings.coefficients
         one = self.settings
         rule = Rule(am, af, gamma, beta, h, one.relative, self._absolute, one.iterations)
-        forces = self._compiled_step(t, rule) if self.model.law is None else self._step_with_law(t, rule)
+        plain = self.model.law is None and not self.model.free_rollers
+        forces = self._compiled_step(t, rule) if plain else self._interpreted_step(t, rule)
         error, node = self._own_error(h, beta) if forces is not None else (0.0, 0)
         if forces is None or error > one.error:
             if forces is not None:
@@ -308,8 +321,9 @@ class Integrator:
         self._state, self._trial = self._trial, self._state
         self.t = t
         self._forces = None
-        if self.model.law is not None:
+        if self.model.law is not None or self.model.free_rollers:
             self._forces, self.memory = forces, forces.memory
+        self.rollers.commit()
         i, k = self.model.held.T
         self._held_force = forces.F[i, k]
         self._anchors_before, self._anchors = self._anchors, self.model.join(forces.moved)
@@ -347,18 +361,20 @@ class Integrator:
         model.add_reports(out, self._reports)
         return out
 
-    def _step_with_law(self, t: float, rule: Rule) -> Forces | None:
-        """The same iteration as :func:`beam.newton_step.newton_step`, for a section law that is Python."""
-        model, new = self.model, self._trial
+    def _interpreted_step(self, t: float, rule: Rule) -> Forces | None:
+        """The same iteration as :func:`beam.newton_step.newton_step`, for a section law that is Python and for free rollers."""
+        model, new, rollers = self.model, self._trial, self.rollers
         predict(self._state, new, rule)
+        rollers.predict(rule)
         model.prescribe(t, new.q, new.v, new.w)
         start = last = np.inf
         fresh = 0
         for k in range(rule.iterations):
             forces = model.forces(
-                t, new.q, new.v, self.anchors, memory=self.memory, dt=rule.h, a=new.w
+                t, new.q, new.v, self.anchors, memory=self.memory, dt=rule.h, a=new.w, turned=rollers.turned_trial
             )  # fmt: skip
-            size = (1 - rule.af) * residual_size(forces.F, model.held, self._R)
+            size = residual_size(forces.F, model.held, self._R)
+            size = (1 - rule.af) * float(np.hypot(size, rollers.size(model, t, new, self.anchors)))
             self.counters.iterations += 1
             if not np.isfinite(size):
                 self._failed(NOT_FINITE, t)
@@ -366,6 +382,7 @@ class Integrator:
             start = size if k == 0 else start
             if size <= rule.relative * start + rule.absolute:
                 self._last_iterations = k + 1
+                rollers.book(model, t, new.q, new.v, self.anchors, rollers.trial, forces)
                 return forces
             if size > 1e6 * max(start, 1.0):
                 break
@@ -375,7 +392,9 @@ class Integrator:
                 if self._factor is None:
                     break
             last = size
-            correct(new, self._factor.solve(self._R), rule)
+            delta, turn = rollers.solve(self._factor.solve, self._R)
+            correct(new, delta, rule)
+            rollers.correct(turn, rule)
         self._failed(-1, t)
         return None
 
@@ -386,11 +405,14 @@ class Integrator:
         acceleration = (1 - rule.am) / ((1 - rule.af) * rule.beta * rule.h**2)
         model.forces(
             t, new.q, new.v, self.anchors, blocks=blocks, factor=speed, memory=self.memory, dt=rule.h, a=new.w,
-            factor_a=acceleration,
+            factor_a=acceleration, turned=self.rollers.turned_trial,
         )  # fmt: skip
         model.fix(blocks)
         factor = Factor(blocks)
         self._factor = factor if factor.singular_node < 0 else None
+        if self._factor is not None:
+            self.rollers.border(model, t, new, self.anchors, rule)
+            self.rollers.bordered(factor.solve)
         self._factor_step = rule.h
         self.counters.factorisations += 1
 
@@ -429,10 +451,11 @@ class Integrator:
 
     def _touching(self, node: int) -> str:
         """Which surfaces the elements of a node touched in the last iteration."""
-        if self.model.law is not None:
+        turned, q = self.rollers.turned_trial, self._trial.q
+        if not np.isfinite(q).all():
             return ""
-        names = []
-        for surface, moved in zip(self.model.surfaces, self.model.split(self._moved), strict=True):
-            if surface.law.friction > 0 and np.isfinite(moved[max(node - 1, 0) : node + 1, :, 0]).any():
-                names.append(surface.name)
+        states = contact_states(self.model, self.t, q, self._trial.v, self.anchors, turned)
+        near = slice(max(node - 1, 0), node + 1)
+        pairs = zip(self.model.surfaces, states, strict=True)
+        names = [surface.name for surface, state in pairs if state.touching[near].any()]
         return f" (on {' and '.join(names)})" if names else ""
