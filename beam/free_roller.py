@@ -87,7 +87,8 @@ class FreeRollers:
     def moments(self, model: RodModel, t: float, q: Array, v: Array, anchors: list[Array], state: Array) -> Array:
         """Moment of each roller on the cable about its axis [N m]."""
         P = model.surface_parameters(t, turned=np.ascontiguousarray(state[:2].T))
-        return np.array([np.vdot(_arm(P[k], q), _contact(model, P[k], k, q, v, anchors)) for k in self.surfaces])
+        each = (np.vdot(_arm(P[k], q), _contact(model, P[k], k, q, v, anchors)) for k in self.surfaces)
+        return np.fromiter(each, float, len(self.surfaces))
 
     def border(self, model: RodModel, t: float, new: StateArrays, anchors: list[Array], rule: Rule) -> None:
         """Columns, rows and corner of the bordered matrix at the trial state."""
