@@ -92,7 +92,8 @@ class ContactState:
     @property
     def element_gap(self) -> Array:
         """Smallest gap of every element (n,) [m]; NaN outside the surface's extent."""
-        return np.array([_smallest(row) for row in self.gap])
+        there = np.where(np.isnan(self.gap), np.inf, self.gap).min(axis=1)
+        return np.where(np.isinf(there), np.nan, there)
 
     @property
     def element_slip(self) -> Array:

@@ -9,6 +9,7 @@ import typer
 
 from beam import TowingRun, builtin_scenarios, read_scenario
 from beam import tow as run_towing
+from beam.towing_record import write_contact_table
 from geometry.errors import ConvergenceError, SpecError
 from helicable.beam_constants import BeamConstants, beam_constants
 from helicable.options import JsonOption
@@ -59,7 +60,8 @@ def tow(
     show_run(run, used)
     record = towing_json(run, used)
     if out is not None:
-        written = [run.write(folder(out) / "run.nc"), *draw_run(run, out)]
+        table_file = write_contact_table(run.dataset, folder(out) / "contacts.csv")
+        written = [run.write(folder(out) / "run.nc"), table_file, *draw_run(run, out)]
         record["run"] = str(written[0])
         write_json(out / "tow.json", record)
         say("written: " + ", ".join(map(str, written)))
@@ -140,12 +142,25 @@ def run_rows(run: TowingRun) -> list[tuple[str, str]]:
         ("formula (23), largest", f"{r['formula_23_peak']:.1f} N"),
         ("energy balance error", f"{abs(r['energy_balance_error']):.1e} of the throughput"),
         ("static residual at the start", f"{r['static_residual']['force']:.1e} N"),
+        *contact_rows(r),
         ("deepest penetration", f"{1e3 * r['deepest_penetration']:.3f} mm"),
         (
             "time",
             f"{r['seconds_simulated']:.2f} s simulated in {r['seconds_wall']:.1f} s, {r['elements']} elements ({r['element']})",
         ),
     ]
+
+
+def contact_rows(record: dict[str, Any]) -> list[tuple[str, str]]:
+    """What the cable touches, at the end of the run."""
+    rows = []
+    for name, one in record["contacts"].items():
+        slip = one["slip_share_end"]
+        state = "no contact" if slip is None else f"{100 * slip:.0f} % of it slips"
+        rows.append(
+            (f"on the {name}, at the end", f"{one['normal_end']:.1f} N, friction {one['friction_end']:.1f} N, {state}")
+        )
+    return rows
 
 
 def show_run(run: TowingRun, used: BeamConstants) -> None:

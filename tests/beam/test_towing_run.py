@@ -26,7 +26,8 @@ def test_every_variable_has_unit_and_meaning(run):
     assert run.status == "completed"
     for name, variable in data.data_vars.items():
         assert variable.attrs["units"] and variable.attrs["long_name"], name
-        assert np.isfinite(variable.values).all(), name
+        if name not in ("contact_gap", "contact_slip", "surface_gap", "surface_slip"):  # not a number where nothing touches
+            assert np.isfinite(variable.values).all(), name
     assert data.sizes == {
         "time": 61, "node": 101, "axis": 3, "section_axis": 3, "source": 9, "element": 100, "gauss": 3, "strain": 6, "surface": 3,
     }  # fmt: skip
