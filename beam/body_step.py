@@ -68,7 +68,9 @@ def add_bodies(
 ) -> None:
     """Add the forces of bodies, bushings, joints and their contacts to ``out.F``; their energies and powers anew."""
     out.kinetic = out.held_power = out.bushing = out.bushing_damping_power = 0.0
-    out.penalty = out.bristle = out.contact_damping_power = out.friction_power = out.surface_power = out.penetration = 0.0
+    out.penalty = out.bristle = out.contact_damping_power = out.friction_power = out.surface_power = out.penetration = (
+        0.0
+    )
     begin = model.rod.lengths.size * int(model.first[-1])
     system.add_forces(t, new.q, new.v, new.w, contact.anchors, contact.moved, begin, True, None, 0.0, 0.0, out)
 

@@ -1,14 +1,15 @@
 """A chain of clamps along a rod: rigid bodies round its nodes, joined to each other by bushings at pins, and to the cable.
 
-Neighbours are joined by `pins` bushings (formula (21), two in the source: one on either side) at the middle between them, which
-lie `pin_width` apart along axis 3 of the clamps. A bushing between every clamp and its node is the hole that the cable lies in: round play
-across, and a hold along. The stop angle is the play of a torsional spring between neighbours.
+Neighbours are joined by `pins` bushings (formula (21), two in the source: one on either side) at the middle between them along
+the cable, which lie `pin_width` apart along axis 3 of the clamps. A bushing between every clamp and its node is the hole that the
+cable lies in: round play across, and a hold along. The stop angle is the play of a torsional spring between neighbours.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,10 +74,11 @@ def clamp_chain(q: Array, nodes: Sequence[int], clamp: ClampSettings) -> tuple[l
         If there are fewer than two nodes, or they do not grow.
     """
     nodes = [int(i) % len(q) for i in nodes]
-    if len(nodes) < 2 or any(b <= a for a, b in zip(nodes, nodes[1:])):
+    if len(nodes) < 2 or any(b <= a for a, b in pairwise(nodes)):
         raise SpecError(f"a chain of clamps needs two or more nodes in growing order, found {nodes[:8]}.")
-    chord = [float(np.linalg.norm(q[b, 0:3] - q[a, 0:3])) for a, b in zip(nodes, nodes[1:])]
-    pitch = float(np.median(chord))
+    spans = np.linalg.norm(np.diff(q[:, 0:3], axis=0), axis=1)
+    pitches = [float(spans[a:b].sum()) for a, b in pairwise(nodes)]
+    pitch = float(np.mean(pitches))
     bodies = [
         RigidBody(
             f"clamp {k}", clamp.mass, clamp.inertia, tuple(q[i, 0:3]), tuple(q[i, 6:9]), points=clamp.points,
@@ -86,13 +88,13 @@ def clamp_chain(q: Array, nodes: Sequence[int], clamp: ClampSettings) -> tuple[l
     ]  # fmt: skip
     across = clamp.pin_width * (np.arange(clamp.pins) / max(clamp.pins - 1, 1) - 0.5) if clamp.pins > 1 else [0.0]
     bushings = []
-    for k in range(len(nodes) - 1):
+    for k, half in enumerate(0.5 * np.array(pitches)):
         for j, z in enumerate(across):
             ends = f"clamp {k}", f"clamp {k + 1}"
             bushings.append(
                 Bushing(
                     *ends, clamp.pin_stiffness, clamp.pin_damping, clamp.pin_preload,
-                    first_point=(pitch / 2, 0.0, float(z)), second_point=(-pitch / 2, 0.0, float(z)), name=f"pin {k}.{j}",
+                    first_point=(half, 0.0, float(z)), second_point=(-half, 0.0, float(z)), name=f"pin {k}.{j}",
                 )
             )  # fmt: skip
     if clamp.stop_stiffness > 0:
