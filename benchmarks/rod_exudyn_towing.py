@@ -56,7 +56,7 @@ def peer_cable(mbs: Any, s: np.ndarray) -> tuple[list[int], list[int]]:
     return nodes, cables
 
 
-def moved(items: Any, markers: list[int], ramp: SpeedRamp) -> Any:
+def moved(items: Any, markers: list[Any], ramp: SpeedRamp) -> Any:
     """Constraint that moves a coordinate along `ramp`."""
     return items.CoordinateConstraint(
         markerNumbers=markers,
@@ -65,7 +65,7 @@ def moved(items: Any, markers: list[int], ramp: SpeedRamp) -> Any:
     )
 
 
-def peer_floor(mbs: Any, fixed: int, nodes: list[int], s: np.ndarray) -> None:
+def peer_floor(mbs: Any, fixed: Any, nodes: list[int], s: np.ndarray) -> None:
     """Trough and deck as stops under the nodes, bristle friction of their weight."""
     import exudyn.itemInterface as items  # noqa: N813
 
@@ -92,7 +92,7 @@ def peer_floor(mbs: Any, fixed: int, nodes: list[int], s: np.ndarray) -> None:
         )  # fmt: skip
 
 
-def peer_roller(mbs: Any, fixed: int, cables: list[int], s: np.ndarray) -> None:
+def peer_roller(mbs: Any, fixed: Any, cables: list[int], s: np.ndarray) -> None:
     """A travelling circle, and three contact segments on every element that meets it."""
     import exudyn.itemInterface as items  # noqa: N813
 
@@ -120,10 +120,10 @@ def peer_towing(elements: int, h: float, end: float = 5.0) -> tuple[float, float
     import exudyn.itemInterface as items  # noqa: N813
 
     system = exudyn.SystemContainer()
-    mbs = system.AddSystem()
+    mbs: Any = system.AddSystem()
     s = np.linspace(0.0, LENGTH, elements + 1)
     nodes, cables = peer_cable(mbs, s)
-    ground = mbs.AddNode(items.NodePointGround())
+    ground: Any = mbs.AddNode(items.NodePointGround())
     fixed = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
     peer_floor(mbs, fixed, nodes, s)
     peer_roller(mbs, fixed, cables, s)
