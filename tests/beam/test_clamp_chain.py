@@ -1,8 +1,4 @@
-"""A cable in a chain of clamps: momentum, energy, stops, gap, friction on a floor, restart, and the kernels uncompiled."""
-
-import os
-import subprocess
-import sys
+"""A cable in a chain of clamps: momentum, energy, stops, gap, friction on a floor, restart."""
 
 import numpy as np
 import pytest
@@ -156,7 +152,7 @@ def test_chain_without_order_is_refused():
 
 
 def one_step() -> np.ndarray:
-    """Two clamps on a floor, one on a swivel."""
+    """Two clamps on a floor, one on a swivel: what test_uncompiled_kernels.py computes twice."""
     part = chain((), (2.0, -9.81, 0), [Plane("floor", ContactLaw(friction=0.2))], elements=3)
     joint = Joint("swivel", "ground", "clamp 0", axis=(0, 0, 1))
     model = RodModel(
@@ -166,19 +162,3 @@ def one_step() -> np.ndarray:
     motion = Integrator(model, model.q0, settings=StepSettings(2e-3, adaptive=False))
     motion.advance(1)
     return np.append(motion.q[3:6].ravel(), motion.counters.iterations)
-
-
-SCRIPT = """
-import sys
-sys.path.insert(0, sys.argv[1])
-from test_clamp_chain import one_step
-print(" ".join(f"{x:.9e}" for x in one_step()))
-"""
-
-
-def test_same_numbers_without_compilation():
-    """The kernels are plain Python as well: nine digits agree."""
-    given = [sys.executable, "-c", SCRIPT, os.path.dirname(__file__)]
-    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
-    done = subprocess.run(given, env=environment, capture_output=True, text=True, check=True)
-    np.testing.assert_allclose(one_step(), np.array(done.stdout.split(), float), rtol=1e-7, atol=1e-10)
