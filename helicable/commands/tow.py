@@ -7,8 +7,9 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from beam import TowingRun, builtin_scenarios, read_scenario
+from beam import TowingRun, accurate_settings, builtin_scenarios, read_scenario
 from beam import tow as run_towing
+from beam.towing_record import write_contact_table
 from geometry.errors import ConvergenceError, SpecError
 from helicable.beam_constants import BeamConstants, beam_constants
 from helicable.options import JsonOption
@@ -35,6 +36,12 @@ def tow(
     out: Annotated[
         Path | None, typer.Option("--out", metavar="DIR", help="Write run.nc, curves and pictures here.")
     ] = None,
+    accurate: Annotated[
+        bool,
+        typer.Option(
+            "--accurate", help="Half the step, iterated nearly to round-off: energy closed to 1e-6 of the work."
+        ),
+    ] = False,
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with the run in DIR/run.nc that was ended from outside.")
     ] = False,
@@ -55,11 +62,12 @@ def tow(
     if resume and out is None:
         raise SpecError("--resume needs --out DIR, the folder in which the run was being written.")
     file = None if out is None else folder(out) / "run.nc"
-    run, used = towing_run(scenario, constants, cable, element=element, file=file, resume=resume)
+    run, used = towing_run(scenario, constants, cable, element=element, file=file, resume=resume, accurate=accurate)
     show_run(run, used)
     record = towing_json(run, used)
     if out is not None:
-        written = [run.write(folder(out) / "run.nc"), *draw_run(run, out)]
+        table_file = write_contact_table(run.dataset, folder(out) / "contacts.csv")
+        written = [run.write(folder(out) / "run.nc"), table_file, *draw_run(run, out)]
         record["run"] = str(written[0])
         write_json(out / "tow.json", record)
         say("written: " + ", ".join(map(str, written)))
@@ -76,6 +84,7 @@ def towing_run(
     element: str | None = None,
     file: Path | None = None,
     resume: bool = False,
+    accurate: bool = False,
 ) -> tuple[TowingRun, BeamConstants]:
     """Read a scenario, resolve its constants (`cell`, if given, is the section of the cable), and run it with progress.
 
@@ -88,7 +97,8 @@ def towing_run(
         read = read.model_copy(update={"element": element})
     used = beam_constants(read, cable, cell)
     with progress("towing") as tell:
-        run = run_towing(read, used.section, progress=tell, file=file, resume=resume)
+        settings = accurate_settings(read) if accurate else None
+        run = run_towing(read, used.section, progress=tell, file=file, resume=resume, settings=settings)
     return run, used
 
 
@@ -140,12 +150,27 @@ def run_rows(run: TowingRun) -> list[tuple[str, str]]:
         ("formula (23), largest", f"{r['formula_23_peak']:.1f} N"),
         ("energy balance error", f"{abs(r['energy_balance_error']):.1e} of the throughput"),
         ("static residual at the start", f"{r['static_residual']['force']:.1e} N"),
+        *contact_rows(r),
         ("deepest penetration", f"{1e3 * r['deepest_penetration']:.3f} mm"),
         (
             "time",
             f"{r['seconds_simulated']:.2f} s simulated in {r['seconds_wall']:.1f} s, {r['elements']} elements ({r['element']})",
         ),
     ]
+
+
+def contact_rows(record: dict[str, Any]) -> list[tuple[str, str]]:
+    """What the cable touches, at the end of the run."""
+    rows = []
+    for name, one in record["contacts"].items():
+        slip = one["slip_share_end"]
+        state = "no contact" if slip is None else f"{100 * slip:.0f} % of it slips"
+        if slip is not None and one["friction_max"] == 0:
+            state = "smooth"
+        rows.append(
+            (f"on the {name}, at the end", f"{one['normal_end']:.1f} N, friction {one['friction_end']:.1f} N, {state}")
+        )
+    return rows
 
 
 def show_run(run: TowingRun, used: BeamConstants) -> None:
