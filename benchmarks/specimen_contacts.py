@@ -35,7 +35,8 @@ from homogenize.specimen.contact_condensation import CONTACT_GRADING, imbalance
 from homogenize.specimen.frictional_contact import ContactConstants
 from homogenize.specimen.load_steps import contact_modulus
 
-CABLE = "mcpt-1.9-3.3-3x35-specimen"
+CABLE = str(Path(__file__).with_name("stiff-conductors-specimen.toml"))
+"""The set of inputs with conductors of 80 GPa: 182.7 mm, lay 380 mm."""
 RECORD = Path(__file__).with_name("specimen_contacts.json")
 TABLE = Path(__file__).with_name("specimen_contacts.md")
 LOADS = (LoadCase("tension", 2000.0), LoadCase("shear", 500.0, "x"), LoadCase("shear", 500.0, "y"))
@@ -44,7 +45,7 @@ SHARES = (0.5, 1.0)
 STIFFNESS = 1e11
 """Of a closed contact [Pa/m], as stiff as 0.04 mm of the rubber."""
 RUBBER = 4.1e6
-"""Young's modulus [Pa] of filler and sheath as one: between those of the sheath, 3.16 MPa, and of the filler, 6.51 MPa."""
+"""Young's modulus [Pa] of filler and sheath as one: between the 3.49 MPa of the sheath and the 5.99 MPa of the filler."""
 MU = 0.3
 HELD = dict(friction=10.0, grip=1e9)
 
@@ -258,7 +259,8 @@ def line(row: Row) -> str:
 def table(rows: dict[str, Row]) -> str:
     """The record as a page."""
     head = (
-        f"# Contacts that open on the published specimen\n\n`{CABLE}`, coarse section, friction {MU}, layers in balance. MPa, mm; "
+        f"# Contacts that open on the published specimen\n\n`{Path(CABLE).stem}`, "
+        f"coarse section, friction {MU}, layers in balance. MPa, mm; "
         "both signs of a force; even: half their difference along X and Y. `python -m benchmarks.specimen_contacts`.\n\n"
         "| case | E | G_yoz +X / -X | G_xoz +Y / -Y | G ratio | u_z | u +X / -X | u +Y / -Y | even X / Y | open % | imbalance % |\n"
         f"|{'---|' * 11}\n"
@@ -276,7 +278,7 @@ def read_record() -> dict[str, Row]:
 
 def write_record(rows: dict[str, Row]) -> None:
     """Write all cases."""
-    about = f"{CABLE}, friction {MU}; MPa, mm"
+    about = f"{Path(CABLE).stem}, friction {MU}; MPa, mm"
     cases = {name: asdict(row) for name, row in rows.items()}
     RECORD.write_text(json.dumps({"about": about, "cases": cases}, indent=1) + "\n", encoding="utf-8")
 
