@@ -8,13 +8,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pydantic import BeforeValidator
+from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 from geometry.errors import SpecError
 from geometry.units import read_quantity
 
 STATUSES = ("published", "deduced", "assumed", "chosen")
 ENTRY_KEYS = ("value", "status", "source", "range")
+
+
+class Part(BaseModel):
+    """A table of a scenario file: entries by name, no others."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
 
 
 @dataclass(frozen=True)
