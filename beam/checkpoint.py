@@ -23,6 +23,8 @@ def model_digest(motion: Integrator) -> str:
     digest = hashlib.sha256()
     for part in (*model.arrays, model.q0, model.external, model.held, model.surface_parameters(0.0)):
         digest.update(np.ascontiguousarray(part).tobytes())
+    for part in model.system.digest() if model.system is not None else ():
+        digest.update(np.ascontiguousarray(part).tobytes())
     digest.update(repr(motion.settings).encode())
     return digest.hexdigest()
 

@@ -123,7 +123,7 @@ def contact_states(
     """
     lengths, out = model.rod.lengths, []
     P = model.surface_parameters(t, turned=turned)
-    for k, (p, anchor) in enumerate(zip(P, anchors, strict=True)):
+    for k, (p, anchor) in enumerate(zip(P, anchors[: len(P)], strict=True)):
         i, j = model.first[k], model.first[k + 1]
         table = np.empty((lengths.size * (j - i), 8))
         contact_table(

@@ -48,7 +48,7 @@ from beam.newton_step import (
     predict,
     residual_size,
 )
-from beam.rod_model import Blocks, Forces, RodModel
+from beam.rod_model import Forces, RodModel
 from beam.rotation_vector import turn_back
 from beam.section_memory import LONG, SectionMemory
 from beam.status import Outcome, Status
@@ -150,7 +150,8 @@ class Integrator:
         self.model = model
         self.settings = settings or StepSettings()
         zero = np.zeros_like(model.q0)
-        start = (model.rod.columns(q), zero if v is None else model.rod.columns(v), zero, zero)
+        v = np.zeros_like(model.q0[: model.rod.nodes]) if v is None else v
+        start = (model.complete(q), model.complete(v, motion=True), zero, zero)
         self._state = StateArrays(*(np.array(x, dtype=float, order="C") for x in start))
         self._trial = StateArrays(*(np.zeros_like(x) for x in self._state))
         self.t = 0.0
@@ -180,15 +181,15 @@ class Integrator:
         self.ledger.start(self.forces)
 
     def _make_room(self) -> None:
-        model, nodes, dof = self.model, self.model.rod.nodes, self.model.rod.dof
-        blocks = Blocks.zeros(nodes, dof)
+        model, nodes, dof = self.model, self.model.rows, self.model.rod.dof
+        blocks = model.blocks()
         self._matrix = MatrixArrays(blocks.D, blocks.U, blocks.L, np.zeros((nodes, dof), dtype=np.int64))
         self._known, self._factor_step = False, 0.0
         self._factor: Factor | None = None
         self._F, self._R = np.zeros((nodes, dof)), np.zeros((nodes, dof))
         self._S, self._totals = np.zeros_like(model.rod.E0), np.zeros(TOTALS)
         self._moved, self._cone = np.empty_like(self._anchors), np.zeros(len(self._anchors))
-        self._reports, self._nodal = np.zeros((len(model.surfaces), 7)), np.zeros((nodes, 3))
+        self._reports, self._nodal = np.zeros((len(model.surfaces), 7)), np.zeros((model.rod.nodes, 3))
 
     def checkpoint(self) -> dict[str, Any]:
         """Everything that the rest of the run depends on, as arrays and plain values; see :mod:`beam.checkpoint`."""
@@ -286,23 +287,24 @@ class Integrator:
         am, af, gamma, beta = self.settings.coefficients
         one = self.settings
         rule = Rule(am, af, gamma, beta, h, one.relative, self._absolute, one.iterations)
-        plain = self.model.law is None and not self.model.free_rollers
+        plain = self.model.law is None and not self.model.free_rollers and self.model.system is None
         forces = self._compiled_step(t, rule) if plain else self._interpreted_step(t, rule)
         error, node = self._own_error(h, beta) if forces is not None else (0.0, 0)
         if forces is None or error > one.error:
             if forces is not None:
-                self._worst = f"The error of a step is largest at node {node}, {error:.1e} m,"
+                self._worst = f"The error of a step is largest at {self.model.row_name(node)}, {error:.1e} m,"
             self._cut(size, h)
             return False
         self._accept(t, size, forces)
         self.error_sum += error
         if error > self.step_error[0]:
-            self.step_error = (error, f"node {node}, t = {t:.3f} s")
+            self.step_error = (error, f"{self.model.row_name(node)}, t = {t:.3f} s")
         self.ledger.step(h, forces)
         return True
 
     def _own_error(self, h: float, beta: float) -> tuple[float, int]:
-        change = self._trial.w[:, 0:3] - self._state.w[:, 0:3]
+        moving = self.model.moving
+        change = self._trial.w[:moving, 0:3] - self._state.w[:moving, 0:3]
         squares = np.einsum("ij,ij->i", change, change)
         node = int(squares.argmax())
         return h * h * abs(beta - 1 / 6) * float(np.sqrt(squares[node])), node
@@ -321,9 +323,11 @@ class Integrator:
         self._state, self._trial = self._trial, self._state
         self.t = t
         self._forces = None
-        if self.model.law is not None or self.model.free_rollers:
+        if self.model.law is not None or self.model.free_rollers or self.model.system is not None:
             self._forces, self.memory = forces, forces.memory
         self.rollers.commit()
+        if self.model.system is not None:
+            self.model.system.settle(*self._state[1:])
         i, k = self.model.held.T
         self._held_force = forces.F[i, k]
         self._anchors_before, self._anchors = self._anchors, self.model.join(forces.moved)
@@ -400,7 +404,7 @@ class Integrator:
 
     def _renew(self, t: float, rule: Rule) -> None:
         model, new = self.model, self._trial
-        blocks = Blocks.zeros(model.rod.nodes, model.rod.dof)
+        blocks = model.blocks()
         speed = rule.gamma / (rule.beta * rule.h)
         acceleration = (1 - rule.am) / ((1 - rule.af) * rule.beta * rule.h**2)
         model.forces(
@@ -421,14 +425,18 @@ class Integrator:
         model, state = self.model, self._state
         given = LONG if self.memory is None else None
         for _ in range(3):
-            blocks = Blocks.zeros(model.rod.nodes, model.rod.dof)
+            blocks = model.blocks()
             self._forces = model.forces(
                 0.0, state.q, state.v, self.anchors, memory=self.memory, dt=given, a=state.w, blocks=blocks, factor_a=1e9
             )  # fmt: skip
-            for part in (blocks.D, blocks.U, blocks.L):
-                part /= 1e9
+            blocks.divide(1e9)
             model.fix(blocks)
-            state.w[:] -= np.where(model.free, Factor(blocks).solve(np.where(model.free, self._forces.F, 0.0)), 0.0)
+            if model.system is not None:
+                model.system.accelerate_joints(state.q, state.v, state.w, self._forces.F, 1e9)
+            delta = np.where(model.free, Factor(blocks).solve(np.where(model.free, self._forces.F, 0.0)), 0.0)
+            state.w[:] -= delta
+            if model.system is not None:
+                model.system.take_multipliers(delta / 1e9, state.q, state.w)
         state.a[:] = state.w
         self._forces = model.forces(
             0.0, state.q, state.v, self.anchors, memory=self.memory, dt=given, a=state.w
@@ -442,12 +450,12 @@ class Integrator:
         if code == NOT_FINITE:
             broken = np.argwhere(~np.isfinite(R))
             node = int(broken[0, 0]) if len(broken) else 0
-            detail = f"It appeared at node {node} in the step to t = {t:.4f} s; the state before it is kept."
+            detail = f"It appeared at {self.model.row_name(node)} in the step to t = {t:.4f} s; the state before it is kept."
             self.outcome = Outcome(Status.NOT_FINITE, detail)
             return
         node = int(np.argmax(np.abs(R[:, 0:3]).max(axis=1)))
         worst = float(np.abs(R[node, 0:3]).max())
-        self._worst = f"The residual is largest at node {node}{self._touching(node)}, {worst:.2e} N,"
+        self._worst = f"The residual is largest at {self.model.row_name(node)}{self._touching(node)}, {worst:.2e} N,"
 
     def _touching(self, node: int) -> str:
         """Which surfaces the elements of a node touched in the last iteration."""
