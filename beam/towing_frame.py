@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beam.clamp_record import CLAMP_VARIABLES, Variables, clamp_coordinates, clamp_frame, has_chain
 from beam.energy_ledger import energy_names
 from beam.generalized_alpha import Integrator
 from beam.incline_formula import towing_force_down, towing_force_up
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
+VARIABLES: Variables = {
     # name: (axes besides time, unit, long name)
     "position": (("node", "axis"), "m", "position of the centre line"),
     "tangent": (("node", "axis"), "1", "derivative of the position by arc length"),
@@ -101,14 +102,15 @@ STRAINS = ("Gamma_1", "Gamma_2", "Gamma_3", "kappa_1", "kappa_2", "kappa_3")
 
 
 def frame(scenario: Scenario, motion: Integrator) -> dict[str, Any]:
-    """Values of ``time`` and all :data:`VARIABLES` at the present state of `motion`."""
-    q, forces, model = motion.q, motion.forces, motion.model
+    """Values of ``time`` and all :func:`variables` at the present state of `motion`."""
+    forces, model = motion.forces, motion.model
     rod = model.rod
+    q, reaction = motion.q[: rod.nodes], motion.reaction[: rod.nodes]
     theta, local, turned = rod.sections(q, forces.S)
     E = rod.strains(q)
     radius, where = _bend_radius(E + rod.E0, gauss_arc_length(model))
-    up, down = formula_forces(scenario, model.rod.mass_per_length, np.array([motion.t]))
-    reaction = motion.reaction
+    mass = rod.mass_per_length + (scenario.cable.clamp_mass_per_length.value if scenario.has_clamps else 0.0)
+    up, down = formula_forces(scenario, mass, np.array([motion.t]))
     first, last = (rod.moment(q[k], reaction[k]) for k in (0, -1))
     return {
         "time": motion.t,
@@ -123,8 +125,8 @@ def frame(scenario: Scenario, motion: Integrator) -> dict[str, Any]:
         "friction_force": forces.friction,
         "gauss_strain": E,
         "gauss_force": rod.in_section_axes(q, forces.S),
-        "friction_use": np.stack([cone.max(axis=1) for cone in forces.cones], axis=1),
-        **_contacts(motion),
+        **(_contacts(motion) if model.surfaces else {}),
+        **(clamp_frame(motion) if has_chain(model) else {}),
         "pull_force": reaction[-1, 0:3],
         "pull_moment": last,
         "supply_reaction": reaction[0, 0:3],
@@ -143,6 +145,7 @@ def _contacts(motion: Integrator) -> dict[str, Array]:
     states = motion.contacts
     turned = surface_turns(motion)
     return {
+        "friction_use": np.stack([cone.max(axis=1) for cone in motion.forces.cones], axis=1),
         "contact_gap": np.stack([s.element_gap for s in states], axis=1),
         "contact_normal": np.stack([s.normal.sum(axis=1) for s in states], axis=1),
         "contact_friction": np.stack([s.friction.sum(axis=1) for s in states], axis=1),
@@ -169,6 +172,12 @@ def surface_turns(motion: Integrator) -> Array:
     return out
 
 
+def variables(model: RodModel) -> Variables:
+    """What is recorded of `model`: of the cable's contacts only what it can touch, of the clamps if they are bodies."""
+    own = {k: x for k, x in VARIABLES.items() if model.surfaces or "surface" not in x[0]}
+    return own | (CLAMP_VARIABLES if has_chain(model) else {})
+
+
 def empty_dataset(model: RodModel, attributes: dict[str, Any]) -> xarray.Dataset:
     """All variables, coordinates and attributes of a run, with no instant of it."""
     import xarray as xr
@@ -176,7 +185,7 @@ def empty_dataset(model: RodModel, attributes: dict[str, Any]) -> xarray.Dataset
     coords = _coordinates(model)
     sizes = {name: len(values) for name, (dims, values, _) in coords.items() if dims == (name,)}
     data = {}
-    for name, (dims, unit, meaning) in VARIABLES.items():
+    for name, (dims, unit, meaning) in variables(model).items():
         shape = (0, *(sizes[dim] for dim in dims))
         data[name] = (("time", *dims), np.zeros(shape), {"units": unit, "long_name": meaning})
     return xr.Dataset(data, coords, attributes)
@@ -207,6 +216,7 @@ def _bend_radius(E: Array, s: Array) -> tuple[float, float]:
 def _coordinates(model: RodModel) -> dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]:
     nodes, elements = model.rod.nodes, model.rod.lengths.size
     count = {"long_name": "node, counted from the shearer", "units": "1"}
+    touched = {"long_name": "what the cable touches"}
     return {
         "time": (("time",), np.zeros(0), {"units": "s", "long_name": "time"}),
         "node": (("node",), np.arange(nodes - 1, -1, -1), count),
@@ -233,6 +243,7 @@ def _coordinates(model: RodModel) -> dict[str, tuple[tuple[str, ...], Any, dict[
             {"long_name": "axes of the section, 1 along the cable"},
         ),
         "strain": (("strain",), list(STRAINS), {"long_name": "stretch, two shears, twist, two curvatures"}),
-        "surface": (("surface",), [s.name for s in model.surfaces], {"long_name": "what the cable touches"}),
+        **({"surface": (("surface",), [s.name for s in model.surfaces], touched)} if model.surfaces else {}),
+        **(clamp_coordinates(model) if has_chain(model) else {}),
         "source": (("source",), list(energy_names(model)), {"long_name": "where the energy is or went"}),
     }
