@@ -103,7 +103,7 @@ class ContactState:
     @property
     def slip_share(self) -> float:
         """The same of the whole surface."""
-        return float(_share(self.normal[self.slips].sum(), self.normal.sum()))
+        return float(_share(np.where(self.slips, self.normal, 0.0).sum(), self.normal.sum()))
 
 
 def contact_states(

@@ -12,7 +12,7 @@ from beam.block_sparse import fix_store
 from beam.bushing import Bushing
 from beam.contact_force import PARAMETERS, contact_forces
 from beam.element import DOF, UNIT_MASS, unit_shapes
-from beam.element_choice import add_mass, internal_force, internal_tangent, kinetic_energy
+from beam.element_choice import add_mass, internal_force, internal_tangent
 from beam.hermite import gauss_points
 from beam.joint import Joint
 from beam.multibody import BODY_FIELDS, Multibody
@@ -281,8 +281,6 @@ class RodModel:
         if self.system is not None:
             begin = n * int(self.first[-1])
             self.system.add_forces(t, q, v, a, joined, moved, begin, friction, blocks, factor, factor_a, out)
-        if moving:
-            out.kinetic += kinetic_energy(v, rod.lengths, rod.m, rod.J, rod.mass)
         out.potential = -float(np.vdot(self._external, q))
         i, k = self.held.T
         out.held_power += float(out.F[i, k] @ v[i, k])

@@ -24,6 +24,7 @@ from beam.scenario_tables import (
     Machine,
     PublishedConstants,
     PublishedResults,
+    Roller,
     TimeSpan,
     Walls,
 )
@@ -56,6 +57,7 @@ class Scenario(Part):
     layout: Layout
     drive: Drive
     contact: Contact
+    roller: Roller = Roller()
     time: TimeSpan
     clamps: Clamps | None = None
     walls: Walls | None = None

@@ -21,7 +21,7 @@ FEWEST_LINKS = 4
 
 def first_fault(scenario: Scenario) -> str:
     """The first thing that cannot be true, as a sentence; empty if there is none."""
-    checks = (_time_fault, _kind_fault, _shape_fault, _stroke_fault, _mesh_fault, _clamp_fault)
+    checks = (_time_fault, _kind_fault, _shape_fault, _stroke_fault, _mesh_fault, _roller_fault, _clamp_fault)
     return next((fault for check in checks if (fault := check(scenario))), "")
 
 
@@ -97,6 +97,21 @@ def _mesh_fault(scenario: Scenario) -> str:
     if on_bend < FEWEST_ON_BEND:
         needed = int(np.ceil(FEWEST_ON_BEND * length / scenario.bend_length))
         return f"{count:g} elements put {on_bend:.1f} on the bend, too few to bend round it: use at least {needed}."
+    return ""
+
+
+def _roller_fault(scenario: Scenario) -> str:
+    roller = scenario.roller
+    if roller.friction is None and (roller.inertia or roller.bearing_moment or roller.surface_speed):
+        return (
+            "a roller with inertia, bearing moment or surface speed turns with the cable or turns it: add roller.friction."
+        )
+    if roller.inertia is not None and roller.surface_speed is not None:
+        return "a roller is either driven (roller.surface_speed) or turned by the cable (roller.inertia), not both."
+    if roller.bearing_moment is not None and roller.inertia is None:
+        return "a roller with a bearing moment turns freely otherwise: add roller.inertia."
+    if roller.inertia is not None and scenario.has_clamps:
+        return 'a roller with inertia can be turned by the bare cable only: leave out roller.inertia, or take chain = "smeared".'
     return ""
 
 

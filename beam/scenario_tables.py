@@ -110,6 +110,19 @@ class Contact(Part):
     damping_time: Annotated[Entry, quantity("s", 0.0, 1.0)]
 
 
+class Roller(Part):
+    """How the roller turns; with nothing given it turns freely without inertia, bearing friction or friction on the cable.
+
+    With `friction` alone it is a drum that does not turn; with `inertia`, and `bearing_moment`, the cable turns it; with
+    `surface_speed` it is driven, positive if its top runs towards the shearer, with the ramp of the drive.
+    """
+
+    friction: Annotated[Entry, quantity("1", 0.0, 2.0)] | None = None
+    inertia: Annotated[Entry, quantity("kg m^2", 1e-6, 1e6)] | None = None
+    bearing_moment: Annotated[Entry, quantity("N m", 0.0, 1e6)] | None = None
+    surface_speed: Annotated[Entry, quantity("m/s", -10.0, 10.0)] | None = None
+
+
 class TimeSpan(Part):
     """Length of the run, output interval, largest step."""
 

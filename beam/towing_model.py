@@ -5,7 +5,7 @@ at the supply at the origin, runs as lower strand towards -x, bends upwards and 
 deck that begins at the bend. An inclination tilts gravity: positive when the shearer goes uphill. The centre line is what
 touches, of the cable or, where the clamps are bodies, of the links, which keep the cable off everything else.
 
-Intelligent: a roller that travels with the trolley holds the bend; it turns freely. Conventional: nothing holds it, the upper
+Intelligent: a roller that travels with the trolley holds the bend; it turns freely unless the table `roller` says more. Conventional: nothing holds it, the upper
 strand comes down on the lower one. Bending machine: an arch that stands still and has friction, a plate that carries the upper
 strand to and fro without friction, and a constant tension at the other end.
 """
@@ -13,19 +13,19 @@ strand to and fro without friction, and a constant tension at the other end.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beam.ancf_cable import AncfCable
 from beam.incline_formula import STANDARD_GRAVITY
+from beam.motion import SpeedRamp
 from beam.rod import GAUSS_X, Rod
 from beam.rod_model import RodModel, Support
 from beam.scenario import Scenario
 from beam.section_law import DampingTimes, SectionLaw
 from beam.shape import strands_and_arcs
-from beam.surface import ContactLaw, Cylinder, Plane, Surface
+from beam.surface import ContactLaw, Cylinder, FreeTurn, Plane, Spin, Surface
 from beam.towing_clamps import clamp_chain
 from homogenize.section_stiffness import SectionInertia, SectionStiffness
 
@@ -87,7 +87,7 @@ def towing_surfaces(scenario: Scenario) -> list[Surface]:
     R, height, start = layout.bend_radius.value, scenario.deck_height, scenario.roller_start
     trough = ContactLaw(contact.stiffness.value, contact.friction.value, contact.damping_time.value)
     smooth = ContactLaw(contact.roller_stiffness.value, 0.0, contact.damping_time.value)
-    trolley = lru_cache(maxsize=4)(scenario.trolley)
+    trolley = scenario.trolley
     machine = scenario.machine
     plate = replace(trough, friction=0.0) if machine else trough
     out: list[Surface] = [
@@ -102,5 +102,24 @@ def towing_surfaces(scenario: Scenario) -> list[Surface]:
     if machine is not None:
         out.append(Cylinder("arch", replace(smooth, friction=machine.arch_friction.value), (start, R, 0.0), R))
     elif scenario.towing == "intelligent":
-        out.append(Cylinder("roller", smooth, (start, R, 0.0), R, trolley))
+        grip = scenario.roller.friction
+        law = smooth if grip is None else replace(smooth, friction=grip.value)
+        out.append(Cylinder("roller", law, (start, R, 0.0), R, trolley, turn=_roller_turn(scenario)))
     return out
+
+
+def _roller_turn(scenario: Scenario) -> Spin | FreeTurn | None:
+    roller, drive = scenario.roller, scenario.drive
+    if roller.inertia is not None:
+        moment = roller.bearing_moment
+        return FreeTurn(roller.inertia.value, 0.0 if moment is None else moment.value)
+    if roller.surface_speed is None:
+        return None
+    angular = -roller.surface_speed.value / scenario.layout.bend_radius.value
+    ramp = SpeedRamp(angular, drive.ramp_start.value, drive.ramp_end.value)
+
+    def turn(t: float) -> tuple[float, float, float]:
+        angle, speed, acceleration = (float(x[0]) for x in ramp(t))
+        return angle, speed, acceleration
+
+    return turn

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 import typer
 
-from beam import TowingRun, builtin_scenarios, read_scenario
+from beam import TowingRun, accurate_settings, builtin_scenarios, read_scenario
 from beam import tow as run_towing
 from beam.towing_comparison import comparison
 from beam.towing_record import write_contact_table
@@ -42,6 +42,12 @@ def tow(
     out: Annotated[
         Path | None, typer.Option("--out", metavar="DIR", help="Write run.nc, curves and pictures here.")
     ] = None,
+    accurate: Annotated[
+        bool,
+        typer.Option(
+            "--accurate", help="Half the step, iterated nearly to round-off: energy closed to 1e-6 of the work."
+        ),
+    ] = False,
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with the run in DIR/run.nc that was ended from outside.")
     ] = False,
@@ -62,7 +68,9 @@ def tow(
     if resume and out is None:
         raise SpecError("--resume needs --out DIR, the folder in which the run was being written.")
     file = None if out is None else folder(out) / "run.nc"
-    run, used = towing_run(scenario, constants, cable, element=element, chain=chain, file=file, resume=resume)
+    run, used = towing_run(
+        scenario, constants, cable, element=element, chain=chain, file=file, resume=resume, accurate=accurate
+    )
     show_run(run, used)
     record = towing_json(run, used)
     if out is not None:
@@ -85,6 +93,7 @@ def towing_run(
     file: Path | None = None,
     resume: bool = False,
     chain: str | None = None,
+    accurate: bool = False,
 ) -> tuple[TowingRun, BeamConstants]:
     """Read a scenario, resolve its constants (`cell`, if given, is the section of the cable), and run it with progress.
 
@@ -96,7 +105,8 @@ def towing_run(
     read = read_scenario(scenario).changed(**{key: value for key, value in choices.items() if value is not None})
     used = beam_constants(read, cable, cell)
     with progress("towing") as tell:
-        run = run_towing(read, used.section, progress=tell, file=file, resume=resume)
+        settings = accurate_settings(read) if accurate else None
+        run = run_towing(read, used.section, progress=tell, file=file, resume=resume, settings=settings)
     return run, used
 
 
