@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from beam.motion import SpeedRamp
+from beam.motion_reciprocating import ReciprocatingStroke
 from beam.scenario_entry import Entry, Part
 from beam.scenario_fault import first_fault
 from beam.scenario_tables import (
@@ -112,6 +113,12 @@ class Scenario(Part):
     @property
     def pull(self) -> Travel:
         """Motion of the shearer, or of the plate."""
+        drive, machine = self.drive, self.machine
+        if machine is not None:
+            ramp = drive.ramp_end.value - drive.ramp_start.value
+            return ReciprocatingStroke(
+                machine.stroke.value, drive.speed.value, ramp, machine.pause.value, drive.ramp_start.value
+            )
         return SpeedRamp(self.drive.speed.value, self.drive.ramp_start.value, self.drive.ramp_end.value)
 
     @property

@@ -72,6 +72,12 @@ def _stroke_fault(scenario: Scenario) -> str:
                 f"the stroke machine.stroke of {machine.stroke.value:g} m takes the whole lower strand of {lower:.2f} m "
                 f"over the arch: shorten it or layout.upper_strand."
             )
+        least = scenario.drive.speed.value * (scenario.drive.ramp_end.value - scenario.drive.ramp_start.value)
+        if machine.stroke.value < least:
+            return (
+                f"the stroke machine.stroke of {machine.stroke.value:g} m is too short to reach drive.speed within the ramp: "
+                f"it needs {least:g} m, or a shorter ramp."
+            )
         return ""
     stroke = float(scenario.pull(scenario.time.duration.value)[0][0])
     travel = float(scenario.trolley(scenario.time.duration.value)[0][0])
