@@ -5,8 +5,8 @@ Vertices are eliminated one after the other; with the later neighbours i, j of a
 .. math:: X_{kj} = D_k^{-1} A_{kj}, \qquad A_{ij} \leftarrow A_{ij} - A_{ik} X_{kj} .
 
 The order is that of least degree, worked out once with the list of all block operations. Multipliers of joints come after the
-vertices that they join, whose blocks are regular by themselves. Row pivoting happens inside a block. A chain of bodies along a rod costs work and
-storage in proportion to its length; a free body that many nodes see costs its degree.
+vertices that they join, whose blocks are regular by themselves. Row pivoting happens inside a block. A chain of bodies along a
+rod costs work and storage in proportion to its length; a free body that many nodes see costs its degree.
 
 Source: A. George, J. W. H. Liu, SIAM Rev. 31 (1989) 1-19, doi 10.1137/1031001 (minimum degree).
 """

@@ -153,7 +153,7 @@ def add_inertia(W: Array, m: float, spare: float) -> None:
     The kinetic energy grows by the same part. `m` is the mass per length.
     """
     for i in range(3):
-        for l in range(LANES):  # noqa: E741 - lane
+        for l in range(LANES):
             k, at, length = ROW * i + l, NODAL + LANES * i + l, W[LENGTH + l]
             _, _, _, _, _, twice = element_inertia(W, k + 12 * ROW, length, m, spare)
             f0, f1, f2, f3, f, _ = element_inertia(W, k + 24 * ROW, length, m, spare)
@@ -169,7 +169,7 @@ def add_inertia(W: Array, m: float, spare: float) -> None:
 
 
 @embedded
-def load_node(q: Array, v: Array, a: Array, node: int, l: int, W: Array) -> None:  # noqa: E741
+def load_node(q: Array, v: Array, a: Array, node: int, l: int, W: Array) -> None:
     """Copy a node into place `l`."""
     for k in range(12):
         W[ROW * k + l] = q[node, k]
@@ -205,7 +205,7 @@ def empty_lanes(W: Array, C: Array, C_damping: Array, shift: Array) -> None:
     """Begin a work array of :func:`beam.point_force.point_forces`: the section's law, a shift of (theta, theta', r')."""
     for i in range(W.size):
         W[i] = 0.0
-    for l in range(LANES):  # noqa: E741
+    for l in range(LANES):
         for i in range(6):
             for j in range(6):
                 k = LANES * (6 * i + j) + l
@@ -235,7 +235,7 @@ def internal_force(  # noqa: C901 - loops over lanes and components
     curved = np.any(E0)
     while begin < n:
         count, moved = elements_together(q, begin, n)
-        for l in range(count):  # noqa: E741
+        for l in range(count):
             load_node(q, v, a, begin + l, l, W)
             W[LENGTH + l], W[LENGTH + LANES + l] = lengths[begin + l], 1.0 / lengths[begin + l]
         if moved:
@@ -246,21 +246,21 @@ def internal_force(  # noqa: C901 - loops over lanes and components
             W[i] = 0.0
         for g in range(w.size):
             if curved:
-                for l in range(count):  # noqa: E741
+                for l in range(count):
                     for i in range(6):
                         W[REST + LANES * i + l] = E0[begin + l, g, i]
             point_forces(W, H, g, w[g], unit * J[0], unit * J[1], unit * J[2], factor, factor_a)
             if S.size > 0:
-                for l in range(count):  # noqa: E741
+                for l in range(count):
                     for i in range(6):
                         S[begin + l, g, i] = W[SECTION + LANES * i + l]
             if not nodal:
-                for l in range(count):  # noqa: E741
+                for l in range(count):
                     for i in range(9):
                         f[begin + l, g, i] = W[FORCE + LANES * i + l]
         if moving:
             add_inertia(W, m, spare)
-        for l in range(count):  # noqa: E741
+        for l in range(count):
             energy += W[ENERGY + l]
             power += W[ENERGY + LANES + l]
             kinetic += W[ENERGY + 2 * LANES + l]
@@ -279,7 +279,7 @@ def add_nodes(q: Array, begin: int, count: int, moved: bool, W: Array, room: Arr
         force_on_branch(q[begin + 1, 6:9], q[begin + 1, 9:12], room[0, 6:9], room[0, 9:12])
         for k in range(12):
             W[NODAL + LANES * (12 + k)] = room[0, k]
-    for l in range(count):  # noqa: E741
+    for l in range(count):
         for k in range(12):
             F[begin + l, k] += W[NODAL + LANES * k + l]
             F[begin + l + 1, k] += W[NODAL + LANES * (12 + k) + l]

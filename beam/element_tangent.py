@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beam.compiled import kernel
-from beam.element import DEGREE_SIX, gather, internal_force, on_two_branches
+from beam.element import DEGREE_SIX, internal_force, on_two_branches
 
 Array = NDArray[np.float64]
 

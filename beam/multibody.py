@@ -17,7 +17,7 @@ from beam.body_contact import BodyPoints, body_contacts
 from beam.body_forces import JointArrays, Links, bushing_forces, joint_forces
 from beam.bushing import GROUND, Bushing, End
 from beam.contact_force import PARAMETERS
-from beam.joint import KINDS, Joint
+from beam.joint import KINDS, SCALE, Joint
 from beam.relative_motion import inverse_turn
 from beam.rigid_body import RigidBody, body_inertia, body_inertia_tangent
 from beam.rotation_vector import rotation_matrix
@@ -350,6 +350,15 @@ class Multibody:
             joint_forces(self.joint_links, self.kinds, there, v, u, du, part, False, np.zeros((1, DOF, DOF)))
             values.append(part[self.first_joint :])
         F[self.first_joint :] = (values[0] - 2 * values[1] + values[2]) / dt**2 / divisor
+
+    def multipliers(self, joint: int, q: Array) -> Array:
+        """Multipliers (6,) of a joint [N, N m], those of displacements first; without the share s Phi that is zero in a solution."""
+        count = self.joints[joint].constraints
+        along = count - int(self.kinds.turns[joint])
+        out = np.zeros(6)
+        out[:along] = SCALE[0] * q[self.first_joint + joint, :along]
+        out[along:count] = SCALE[1] * q[self.first_joint + joint, along:count]
+        return out
 
     def take_multipliers(self, delta: Array, q: Array, w: Array) -> None:
         """Subtract `delta` from the multipliers in `q`; they have no acceleration."""

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from beam.block_tridiagonal import invert_chain, sweep_chain
 from beam.compiled import kernel
 from beam.contact_force import contact_forces
+from beam.contact_lanes import contact_residual
 from beam.element_choice import internal_force, internal_tangent
 
 Array = NDArray[np.float64]
@@ -115,11 +116,9 @@ def evaluate(
         state.q, state.v, state.w, True, rod.damped, rod.lengths, rod.H, rod.w, rod.C, rod.C_damping, rod.E0,
         rod.m, rod.J, rod.mass, F, S,
     )  # fmt: skip
-    none = rod.E0
-    contact_forces(
+    contact_residual(
         contact.P, contact.first, contact.xs, contact.ws, state.q, state.v, rod.lengths, contact.anchors,
-        contact.moved, F, contact.nodal, contact.nodal, contact.reports, contact.cone, False, False, 0.0,
-        none, none, none,
+        contact.moved, F, contact.reports,
     )  # fmt: skip
 
 

@@ -109,7 +109,7 @@ def add(W: Array, i: int, n: float, x0: float, x1: float, x2: float) -> None:
 
 
 @kernel
-def point_forces(
+def point_forces(  # noqa: PLR0915 - the formulas written out
     W: Array, H: Array, g: int, w: float, J0: float, J1: float, J2: float, factor: float, factor_a: float
 ) -> None:
     """Gauss point `g` of weight `w` of eight elements: adds to the forces on their nodes and to their energies.
@@ -118,7 +118,7 @@ def point_forces(
     velocities and `factor_a` times it to the accelerations. J is the rotary inertia, zero if nothing moves.
     """
     h0, h1, h2, h3, h4, h5, h7 = H[g, 0], H[g, 1], H[g, 2], H[g, 3], H[g, 4], H[g, 5], H[g, 7]
-    for l in range(LANES):  # noqa: E741 - lane
+    for l in range(LANES):
         n1, n3, slant = h1 * W[LENGTH + l], h3 * W[LENGTH + l], h4 * W[LENGTH + 8 + l]
         x0, x1, x2 = value(W, l + 6 * ROW, h0, n1, h2, n3)
         t0, t1, t2 = shifted(W, SHIFT + l, 1.0, x0, x1, x2)

@@ -12,7 +12,8 @@ from beam.surface import Travel
 class Support:
     """Node (negative: from the end), or body by its name, whose fields are held at their starting values.
 
-    Fields: r, x, y, z, theta; of nodes r', theta' as well, of bodies theta_x, theta_y, theta_z. `travel` moves its position, `turn` its section about a fixed axis, from theta = 0 at the start.
+    Fields are r, x, y, z, theta; of nodes r', theta' as well, of bodies theta_x, theta_y, theta_z. `travel` moves the position,
+    `turn` the section or the body about a fixed axis, from theta = 0 at the start.
     """
 
     node: int | str
