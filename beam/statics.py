@@ -142,7 +142,8 @@ def _step(
         blocks = model.blocks()
         forces = forces_of(t, trial, rest, anchors, friction=False, blocks=blocks)
         residual = np.where(model.free, forces.F + model.inertia((trial - q) / h**2), 0.0)
-        size = float(np.linalg.norm(residual))
+        with np.errstate(over="ignore"):
+            size = float(np.linalg.norm(residual))
         if k == 0:
             start = max(size, settings.force_tolerance)
         if not np.isfinite(size) or size > 1e8 * start:
