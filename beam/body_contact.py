@@ -76,7 +76,7 @@ def spread_point(P: Array, force: Array, out: Array) -> None:
 
 
 @kernel
-def body_contacts(
+def body_contacts(  # noqa: C901 - loops over components
     S: Array, points: BodyPoints, q: Array, v: Array, anchors: Array, moved: Array, begin: int, F: Array,
     reports: Array, on_body: Array, first_row: int, want_tangent: bool, factor: float, D: Array,
 ) -> None:  # fmt: skip

@@ -31,6 +31,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beam.body_step import body_step
 from beam.contact_state import ContactState, contact_states
 from beam.energy_ledger import EnergyLedger
 from beam.free_roller import FreeRollers
@@ -183,7 +184,10 @@ class Integrator:
     def _make_room(self) -> None:
         model, nodes, dof = self.model, self.model.rows, self.model.rod.dof
         blocks = model.blocks()
-        self._matrix = MatrixArrays(blocks.D, blocks.U, blocks.L, np.zeros((nodes, dof), dtype=np.int64))
+        pivots = np.zeros((nodes, dof), dtype=np.int64)
+        self._matrix: Any = blocks.store
+        if blocks.store is None:
+            self._matrix = MatrixArrays(blocks.D, blocks.U, blocks.L, pivots)
         self._known, self._factor_step = False, 0.0
         self._factor: Factor | None = None
         self._F, self._R = np.zeros((nodes, dof)), np.zeros((nodes, dof))
@@ -287,7 +291,7 @@ class Integrator:
         am, af, gamma, beta = self.settings.coefficients
         one = self.settings
         rule = Rule(am, af, gamma, beta, h, one.relative, self._absolute, one.iterations)
-        plain = self.model.law is None and not self.model.free_rollers and self.model.system is None
+        plain = self.model.law is None and not self.model.free_rollers
         forces = self._compiled_step(t, rule) if plain else self._interpreted_step(t, rule)
         error, node = self._own_error(h, beta) if forces is not None else (0.0, 0)
         if forces is None or error > one.error:
@@ -323,7 +327,7 @@ class Integrator:
         self._state, self._trial = self._trial, self._state
         self.t = t
         self._forces = None
-        if self.model.law is not None or self.model.free_rollers or self.model.system is not None:
+        if self.model.law is not None or self.model.free_rollers:
             self._forces, self.memory = forces, forces.memory
         self.rollers.commit()
         if self.model.system is not None:
@@ -346,10 +350,18 @@ class Integrator:
             model.surface_parameters(t), model.first, model.xs, model.ws, self._anchors, self._moved, self._reports,
             self._nodal, self._cone,
         )  # fmt: skip
-        code, iterations, factored, self._known = newton_step(
-            model.arrays, contact, model.external, model.held, model.held_values(t), self._state, self._trial,
-            self._matrix, self._known and self._factor_step == rule.h, rule, self._F, self._S, self._R, self._totals,
-        )  # fmt: skip
+        known = self._known and self._factor_step == rule.h
+        parts = Forces(self._F, self._S, [self._moved], self._nodal, self._nodal, [])
+        if model.system is None:
+            code, iterations, factored, self._known = newton_step(
+                model.arrays, contact, model.external, model.held, model.held_values(t), self._state, self._trial,
+                self._matrix, known, rule, self._F, self._S, self._R, self._totals,
+            )  # fmt: skip
+        else:
+            code, iterations, factored, self._known = body_step(
+                model, model.system, t, contact, self._state, self._trial, self._matrix, known, rule, parts, self._R,
+                self._totals,
+            )  # fmt: skip
         self._factor_step = rule.h
         self.counters.iterations += iterations
         self.counters.factorisations += factored
@@ -358,12 +370,11 @@ class Integrator:
             self._failed(code, t)
             return None
         elastic, damping, kinetic, power, potential = self._totals.tolist()
-        out = Forces(
-            self._F, self._S, [self._moved], self._nodal, self._nodal, [], elastic=elastic, kinetic=kinetic,
-            potential=potential, damping_power=damping, held_power=power,
-        )  # fmt: skip
-        model.add_reports(out, self._reports)
-        return out
+        parts.elastic, parts.potential, parts.damping_power = elastic, potential, damping
+        parts.kinetic += kinetic
+        parts.held_power += power
+        model.add_reports(parts, self._reports)
+        return parts
 
     def _interpreted_step(self, t: float, rule: Rule) -> Forces | None:
         """The same iteration as :func:`beam.newton_step.newton_step`, for a section law that is Python and for free rollers."""

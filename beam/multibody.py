@@ -76,6 +76,10 @@ class Multibody:
         self._points()
         self._connections()
         self._pattern()
+        self._travels = {
+            id(group): [(m, x.travel) for m, x in enumerate(group) if x.travel is not None]
+            for group in (self.bushings, self.joints)
+        }
         self.joint_links, self.bushing_links = (self._with_slots(x) for x in (self.joint_links, self.bushing_links))
 
     def _names(self) -> None:
@@ -268,9 +272,8 @@ class Multibody:
     def travel(self, t: float, connections: Sequence[Bushing | Joint]) -> tuple[Array, Array]:
         """Motion and speed (m, 3) of the points on the ground of the connections at time `t`."""
         u, du = np.zeros((len(connections), 3)), np.zeros((len(connections), 3))
-        for m, connection in enumerate(connections):
-            if connection.travel is not None:
-                u[m], du[m], _ = connection.travel(t)
+        for m, travel in self._travels[id(connections)]:
+            u[m], du[m], _ = travel(t)
         return u, du
 
     def surface_parameters(self, t: float, friction: bool = True) -> Array:

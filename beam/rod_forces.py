@@ -67,9 +67,9 @@ class Blocks:
         return cls(np.zeros((nodes, *shape)), np.zeros((nodes - 1, *shape)), np.zeros((nodes - 1, *shape)))
 
     @classmethod
-    def of_pattern(cls, at: Pattern) -> Blocks:
-        """Empty matrix with the couplings of a pattern."""
-        store = at.store()
+    def of_pattern(cls, at: Pattern, store: Array | None = None) -> Blocks:
+        """Matrix with the couplings of a pattern, in a given store or an empty one."""
+        store = at.store() if store is None else store
         rows, links = at.rows, at.chain - 1
         return cls(store[:rows], store[rows : rows + links], store[rows + links : rows + 2 * links], store, at)
 

@@ -193,6 +193,8 @@ def contact_rows(record: dict[str, Any]) -> list[tuple[str, str]]:
     for name, one in record["contacts"].items():
         slip = one["slip_share_end"]
         state = "no contact" if slip is None else f"{100 * slip:.0f} % of it slips"
+        if slip is not None and one["friction_max"] == 0:
+            state = "smooth"
         rows.append(
             (f"on the {name}, at the end", f"{one['normal_end']:.1f} N, friction {one['friction_end']:.1f} N, {state}")
         )

@@ -190,6 +190,18 @@ def test_an_unreachable_scheduler_is_a_sentence(scenario, tmp_path, monkeypatch)
         sweep(scenario, read_axes(["friction=0.2"], scenario), tmp_path / "b", workers=0)
 
 
+def test_a_scheduler_without_workers_is_a_sentence(scenario, tmp_path, monkeypatch):
+    """It is reached, but nobody works there: the sweep ends instead of waiting for ever."""
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(pool, "WORKER_SECONDS", 0.3)
+    settings = {"processes": False, "dashboard_address": None, "host": "tcp://127.0.0.1", "silence_logs": 50}
+    with (
+        distributed.LocalCluster(n_workers=0, **settings) as cluster,
+        pytest.raises(InputError, match="has had no workers or was out of reach"),
+    ):
+        sweep(scenario, read_axes(["friction=0.2"], scenario), tmp_path, scheduler=cluster.scheduler_address)
+
+
 def test_a_scheduler_gives_the_same_rows(scenario, done, tmp_path):
     """The address of a running scheduler instead of this process: equal numbers, failures included, full runs as files."""
     distributed = pytest.importorskip("distributed")
