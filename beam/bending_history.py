@@ -58,7 +58,14 @@ class BendingHistory:
             with path.open("w", newline="", encoding="utf-8") as file:
                 table = csv.writer(file)
                 table.writerow(
-                    ["element", "s [m]", "largest curvature [1/m]", "curvature range [1/m]", "strain range at the rim [1]", "bends"]
+                    [
+                        "element",
+                        "s [m]",
+                        "largest curvature [1/m]",
+                        "curvature range [1/m]",
+                        "strain range at the rim [1]",
+                        "bends",
+                    ]
                 )
                 for e, s in enumerate(self.s):
                     row = (s, largest[e], self.range[e], 0.5 * diameter * self.range[e])

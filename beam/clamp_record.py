@@ -25,7 +25,11 @@ CLAMP_VARIABLES: Variables = {
     "clamp_rotation_vector": (("clamp", "axis"), "rad", "rotation vector of the link"),
     "clamp_contact_force": (("clamp", "axis"), "N", "force of trough, deck, walls and roller on the link"),
     "clamp_cable_force": (("clamp", "axis"), "N", "force of the link on the cable"),
-    "clamp_cable_pressure": (("clamp",), "N", "size of that force across the link: 0 where the cable lies free in its gap"),
+    "clamp_cable_pressure": (
+        ("clamp",),
+        "N",
+        "size of that force across the link: 0 where the cable lies free in its gap",
+    ),
     "bushing_force": (
         ("bushing", "direction"),
         "N (x, y, z), N m (a, b, c)",
@@ -70,5 +74,9 @@ def clamp_coordinates(model: RodModel) -> dict[str, tuple[tuple[str, ...], Any, 
         "clamp": (("clamp",), np.arange(count, 0, -1), {"long_name": f"link, {counted}", "units": "1"}),
         "pin": (("pin",), np.arange(count + 1, 0, -1), {"long_name": f"pin, {counted}", "units": "1"}),
         "bushing": (("bushing",), np.array(numbers), {"long_name": f"bushing, two a pin, {counted}", "units": "1"}),
-        "direction": (("direction",), ["x", "y", "z", "a", "b", "c"], {"long_name": "along, normal, across, about them"}),
+        "direction": (
+            ("direction",),
+            ["x", "y", "z", "a", "b", "c"],
+            {"long_name": "along, normal, across, about them"},
+        ),
     }

@@ -39,7 +39,9 @@ class ReciprocatingStroke:
 
     def __post_init__(self) -> None:
         if not (self.stroke > 0 and self.speed > 0 and self.ramp > 0 and self.pause >= 0):
-            raise SpecError("a reciprocating motion needs a positive stroke, speed and ramp, and a pause of zero or more.")
+            raise SpecError(
+                "a reciprocating motion needs a positive stroke, speed and ramp, and a pause of zero or more."
+            )
         if self.stroke < self.speed * self.ramp:
             raise SpecError(
                 f"a stroke of {self.stroke:g} m is too short to reach {self.speed:g} m/s with ramps of {self.ramp:g} s: "

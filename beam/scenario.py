@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-import numpy as np
 from pydantic import Field, model_validator
 
 from beam.motion import SpeedRamp
@@ -29,8 +28,8 @@ from beam.scenario_tables import (
     TimeSpan,
     Walls,
 )
-from beam.towing_path import Pieces, bend_pieces
 from beam.surface import Travel
+from beam.towing_path import Pieces, bend_pieces
 from geometry.errors import SpecError
 from homogenize.section_stiffness import SectionInertia, SectionStiffness
 
@@ -125,7 +124,9 @@ class Scenario(Part):
     def trolley(self) -> Travel:
         """Motion of the roller; without a roller, of the place of the bend."""
         drive = self.drive
-        return SpeedRamp(drive.speed.value, drive.ramp_start.value, drive.ramp_end.value, ratio=drive.trolley_ratio.value)
+        return SpeedRamp(
+            drive.speed.value, drive.ramp_start.value, drive.ramp_end.value, ratio=drive.trolley_ratio.value
+        )
 
     @property
     def cable_inertia(self) -> SectionInertia:

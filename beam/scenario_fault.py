@@ -109,9 +109,7 @@ def _mesh_fault(scenario: Scenario) -> str:
 def _roller_fault(scenario: Scenario) -> str:
     roller = scenario.roller
     if roller.friction is None and (roller.inertia or roller.bearing_moment or roller.surface_speed):
-        return (
-            "a roller with inertia, bearing moment or surface speed turns with the cable or turns it: add roller.friction."
-        )
+        return "a roller with inertia, bearing moment or surface speed turns with the cable or turns it: add roller.friction."
     if roller.inertia is not None and roller.surface_speed is not None:
         return "a roller is either driven (roller.surface_speed) or turned by the cable (roller.inertia), not both."
     if roller.bearing_moment is not None and roller.inertia is None:
@@ -129,9 +127,7 @@ def _clamp_fault(scenario: Scenario) -> str:
     if not scenario.cable.clamp_mass_per_length.value > 0:
         return 'clamps without mass cannot be bodies: give cable.clamp_mass_per_length, or chain = "smeared".'
     if clamps.contact_length.value > pitch:
-        return (
-            f"clamps.contact_length of {clamps.contact_length.value:g} m is longer than the pitch of {pitch:g} m: shorten it."
-        )
+        return f"clamps.contact_length of {clamps.contact_length.value:g} m is longer than the pitch of {pitch:g} m: shorten it."
     on_bend = scenario.bend_length / pitch
     if on_bend < FEWEST_LINKS:
         return (

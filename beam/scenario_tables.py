@@ -55,8 +55,7 @@ class Clamps(Part):
     """The clamp chain: links of one pitch, each pin two bushings `pin_width` apart, and the cable with a gap in every link.
 
     K_x ... K_b belong to one bushing: along the chain, normal, across, and about the first two; about the pin it turns freely up
-    to the stop. `pin_play` is free in the
-    first two. A link's mass is ``cable.clamp_mass_per_length`` times the pitch.
+    to the stop. `pin_play` is free along and normal to the chain. A link's mass is ``cable.clamp_mass_per_length`` times the pitch.
     """
 
     pitch: Annotated[Entry, quantity("m", 1e-3, 10.0)]

@@ -131,6 +131,7 @@ def equilibrium(
     return Equilibrium(q, current.moved, current, force, moment, count, outcome, kept)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # a trial that runs away is dropped, see the end of the loop
 def _step(
     model: RodModel, forces_of: Callable[..., Forces], t: float, q: Array, anchors: list[Array], h: float,
     settings: StaticSettings,
@@ -142,8 +143,7 @@ def _step(
         blocks = model.blocks()
         forces = forces_of(t, trial, rest, anchors, friction=False, blocks=blocks)
         residual = np.where(model.free, forces.F + model.inertia((trial - q) / h**2), 0.0)
-        with np.errstate(over="ignore"):
-            size = float(np.linalg.norm(residual))
+        size = float(np.linalg.norm(residual))
         if k == 0:
             start = max(size, settings.force_tolerance)
         if not np.isfinite(size) or size > 1e8 * start:

@@ -33,6 +33,7 @@ Progress = Callable[[float, str], None]
 
 logger = logging.getLogger(__name__)
 
+
 def tow(
     scenario: Scenario,
     section: SectionStiffness | None = None,

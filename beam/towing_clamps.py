@@ -67,7 +67,8 @@ def clamp_chain(scenario: Scenario, s: Array) -> ClampChain:
     turn += 2 * np.pi * np.round((heading - turn) / (2 * np.pi))
     count = len(middles)
     bodies = [
-        _link(scenario, clamps, link_name(count - k), 0.5 * (pins[k] + pins[k + 1]), float(turn[k])) for k in range(count)
+        _link(scenario, clamps, link_name(count - k), 0.5 * (pins[k] + pins[k + 1]), float(turn[k]))
+        for k in range(count)
     ]
     nodes = [int(np.argmin(np.abs(s - middle))) for middle in middles]
     bushings = _pins(clamps, count, float(middles[0] - s[0]), float(s[-1] - middles[-1]))

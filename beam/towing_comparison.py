@@ -48,5 +48,5 @@ QUANTITIES: tuple[tuple[str, str, str, Callable[[Record], float | None]], ...] =
 
 
 def comparison(record: Record) -> list[Row]:
-    """Rows of a run's record, see :func:`beam.towing_record.towing_record`; what the source does not report for it has no published value."""
+    """Rows of a run's record, see :func:`beam.towing_record.towing_record`; no published value where the source has none."""
     return [Row(name, key, unit, record["published"].get(key), read(record)) for name, key, unit, read in QUANTITIES]

@@ -5,9 +5,9 @@ at the supply at the origin, runs as lower strand towards -x, bends upwards and 
 deck that begins at the bend. An inclination tilts gravity: positive when the shearer goes uphill. The centre line is what
 touches, of the cable or, where the clamps are bodies, of the links, which keep the cable off everything else.
 
-Intelligent: a roller that travels with the trolley holds the bend; it turns freely unless the table `roller` says more. Conventional: nothing holds it, the upper
-strand comes down on the lower one. Bending machine: an arch that stands still and has friction, a plate that carries the upper
-strand to and fro without friction, and a constant tension at the other end.
+Intelligent: a roller that travels with the trolley holds the bend; it turns freely unless the table `roller` says more.
+Conventional: nothing holds it, the upper strand comes down on the lower one. Bending machine: an arch that stands still and has
+friction, a plate that carries the upper strand to and fro without friction, and a constant tension at the other end.
 """
 
 from __future__ import annotations
@@ -92,13 +92,17 @@ def towing_surfaces(scenario: Scenario) -> list[Surface]:
     plate = replace(trough, friction=0.0) if machine else trough
     out: list[Surface] = [
         Plane("trough", trough),
-        Plane("deck", plate, offset=height, low=(start, 0.5 * height, -np.inf), box_travel=None if machine else trolley),
+        Plane(
+            "deck", plate, offset=height, low=(start, 0.5 * height, -np.inf), box_travel=None if machine else trolley
+        ),
     ]
     if scenario.walls is not None:
         half = scenario.walls.clearance.value
         if scenario.has_clamps and scenario.clamps is not None:
             half += 0.5 * scenario.clamps.width.value
-        out += [Plane(f"{side} wall", trough, (0.0, 0.0, sign), -half) for side, sign in (("left", 1.0), ("right", -1.0))]
+        out += [
+            Plane(f"{side} wall", trough, (0.0, 0.0, sign), -half) for side, sign in (("left", 1.0), ("right", -1.0))
+        ]
     if machine is not None:
         out.append(Cylinder("arch", replace(smooth, friction=machine.arch_friction.value), (start, R, 0.0), R))
     elif scenario.towing == "intelligent":

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from beam.bending_history import bending_history
 from beam.chain_record import SIMILARITY, chain_record, nearest_pin, similar
 from beam.section_stress import largest_normal_stress
 from geometry.errors import InputError
@@ -48,6 +49,7 @@ def towing_record(run: TowingRun) -> dict[str, Any]:
         "peak_tension": float(data["force_local"].values[:, :, 0].max()),
         "bend_radius_min": float(data["bend_radius"].values.min()),
         "normal_stress_max": _largest_stress(run),
+        "bending": bending_record(data),
         "pull_force_plateau": _plateau(time, data["pull_force"].values[:, 0]),
         "pull_force_max": _largest(data["pull_force"].values[:, 0]),
         "formula_22_peak": float(up.max()),
@@ -69,6 +71,19 @@ def towing_record(run: TowingRun) -> dict[str, Any]:
         "published": published,
         "assumed": {key: entry.text for key, entry in entries.items() if entry.status == "assumed"},
         "notes": _notes(run),
+    }
+
+
+def bending_record(data: xarray.Dataset) -> dict[str, float]:
+    """Sections that were bent, most bends of one, its place; largest range of the curvature and its place."""
+    history = bending_history(data)
+    most, widest = int(history.bends.argmax()), int(history.range.argmax())
+    return {
+        "sections_bent": int((history.bends > 0).sum()),
+        "bends_max": int(history.bends[most]),
+        "bends_max_at": float(history.s[most]),
+        "curvature_range_max": float(history.range[widest]),
+        "curvature_range_max_at": float(history.s[widest]),
     }
 
 

@@ -10,6 +10,7 @@ import typer
 
 from beam import TowingRun, accurate_settings, builtin_scenarios, read_scenario
 from beam import tow as run_towing
+from beam.bending_history import bending_history
 from beam.towing_comparison import comparison
 from beam.towing_record import write_contact_table
 from geometry.errors import ConvergenceError, SpecError
@@ -75,7 +76,8 @@ def tow(
     record = towing_json(run, used)
     if out is not None:
         table_file = write_contact_table(run.dataset, folder(out) / "contacts.csv")
-        written = [run.write(folder(out) / "run.nc"), table_file, *draw_run(run, out)]
+        bending = bending_history(run.dataset).write(out / "bending.csv", run.scenario.cable.diameter.value)
+        written = [run.write(folder(out) / "run.nc"), table_file, bending, *draw_run(run, out)]
         record["run"] = str(written[0])
         write_json(out / "tow.json", record)
         say("written: " + ", ".join(map(str, written)))
@@ -116,7 +118,8 @@ WHY = {
     "that a value near the published one confirms nothing",
     "node_220_Fy_plateau": "the force across the cable where it leaves the bend: it follows the bend radius and the bending stiffness; the "
     "clamps, which carry the bend in the real chain, enter here as mass only. The sign is that of this project's axes",
-    "node_370_Fx_max": "the tension left behind the bend: it follows the slack at the start (none here) and the friction of the lower strand",
+    "node_370_Fx_max": "the tension left behind the bend: it follows the slack at the start (none here) and the friction of the lower "
+    "strand",
 }
 """Why a run whose clamps are mass on the cable differs from the source, by the key of the published value."""
 
@@ -125,7 +128,12 @@ def published_rows(*runs: TowingRun) -> list[tuple[str, ...]]:
     """Quantity, published value, the value computed in each run, and why they differ; clamps as mass on the cable."""
     found = [{row.key: row for row in comparison(run.record())} for run in runs]
     return [
-        (found[0][key].name, quantity_text(found[0][key].published, "N"), *(quantity_text(f[key].computed, "N") for f in found), why)
+        (
+            found[0][key].name,
+            quantity_text(found[0][key].published, "N"),
+            *(quantity_text(f[key].computed, "N") for f in found),
+            why,
+        )
         for key, why in WHY.items()
     ]
 

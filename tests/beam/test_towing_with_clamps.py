@@ -49,7 +49,9 @@ def test_momentum_of_cable_and_links():
     lengths = model.rod.lengths[:, None]
     share = model.rod.mass_per_length * lengths
     # integral of the cubic Hermite function over an element
-    cable = (share * (0.5 * (a[: n - 1, 0:3] + a[1:n, 0:3]) + lengths / 12 * (a[: n - 1, 3:6] - a[1:n, 3:6]))).sum(axis=0)
+    cable = (share * (0.5 * (a[: n - 1, 0:3] + a[1:n, 0:3]) + lengths / 12 * (a[: n - 1, 3:6] - a[1:n, 3:6]))).sum(
+        axis=0
+    )
     links = masses @ a[n : model.moving, 0:3]
     assert abs(links[0]) > 0.5
     np.testing.assert_allclose(total, cable + links, rtol=0, atol=1e-3)  # the iteration stops at 1e-6 N a node
