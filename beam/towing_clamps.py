@@ -51,7 +51,7 @@ def link_middles(length: float, pitch: float) -> Array:
     >>> link_middles(1.0, 0.3).round(12).tolist()
     [0.3, 0.6]
     """
-    return pitch * np.arange(1, int(np.floor(length / pitch + 1e-9)))
+    return np.asarray(pitch * np.arange(1, int(np.floor(length / pitch + 1e-9))), dtype=float)
 
 
 def clamp_chain(scenario: Scenario, s: Array) -> ClampChain:
