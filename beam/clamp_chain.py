@@ -21,6 +21,7 @@ from geometry.errors import SpecError
 Array = NDArray[np.float64]
 
 Six = tuple[float, float, float, float, float, float]
+NONE: Six = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -50,10 +51,10 @@ class ClampSettings:
     mass: float
     inertia: tuple[float, float, float]
     pin_stiffness: Six
-    pin_damping: Six = (0.0,) * 6
-    pin_preload: Six = (0.0,) * 6
+    pin_damping: Six = NONE
+    pin_preload: Six = NONE
     hole_stiffness: Six = (1e5, 1e5, 1e5, 10.0, 0.0, 0.0)
-    hole_damping: Six = (0.0,) * 6
+    hole_damping: Six = NONE
     gap: float = 0.0
     stop_angle: float = np.inf
     stop_stiffness: float = 0.0

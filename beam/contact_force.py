@@ -19,7 +19,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.compiled import inlined, kernel
+from beam.compiled import embedded, kernel
 from beam.hermite import hermite_values
 
 Array = NDArray[np.float64]
@@ -98,7 +98,7 @@ def out_of_reach(p: Array, q: Array, e: int, length: float) -> bool:
     return True
 
 
-@inlined
+@embedded
 def point_contact(
     p: Array, e: int, g: int, j: int, q: Array, v: Array, N: Array, anchors: Array, moved: Array, report: Array,
     weight: float,
@@ -153,7 +153,7 @@ def point_contact(
     return fn, n0, n1, n2, t0, t1, t2, distance
 
 
-@inlined
+@embedded
 def point_tangent(
     p: Array, e: int, g: int, j: int, q: Array, v: Array, N: Array, anchors: Array, n: Array, distance: float,
     fn: float, factor: float, trial: Array, K: Array,
@@ -195,7 +195,7 @@ def shapes_at(xs: Array, length: float, N: Array) -> None:
         hermite_values(xs[g], length, N[g])
 
 
-@inlined
+@embedded
 def contact_force(  # noqa: C901 - loops over components
     p: Array, begin: int, q: Array, v: Array, lengths: Array, xs: Array, ws: Array, anchors: Array, moved: Array,
     F: Array, nodal: Array, friction: Array, report: Array, cone: Array, collect: bool,
@@ -243,7 +243,7 @@ def contact_force(  # noqa: C901 - loops over components
                 scatter_contact(K, e, weight, N[g], D, U, L)
 
 
-@inlined
+@embedded
 def collect_point(
     e: int, j: int, x: float, force: Array, shear: Array, limit: float, nodal: Array, friction: Array, cone: Array
 ) -> None:

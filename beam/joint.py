@@ -104,9 +104,10 @@ class Joint:
         x = np.asarray(self.axis, dtype=float)
         x = x / np.linalg.norm(x)
         across = np.eye(3)[int(np.argmin(np.abs(x)))]
-        y = np.cross(x, across)
-        y /= np.linalg.norm(y)
-        return np.column_stack([x, y, np.cross(x, y)])
+        y = np.asarray(np.cross(x, across), dtype=float)
+        y = y / float(np.linalg.norm(y))
+        z = np.asarray(np.cross(x, y), dtype=float)
+        return np.array([x, y, z], dtype=float).T
 
 
 @kernel
