@@ -103,9 +103,9 @@ def test_cable_is_free_in_its_gap_and_pressed_beyond_it(scenario):
     assert isinstance(inside, Bushing) and inside.first == "clamp 1" and GROUND not in (inside.first, inside.second)
     gap, slide = scenario.clamps.cable_gap.value, scenario.clamps.cable_slide.value
     force, across = np.zeros(6), np.array([0.0, 0.6, 0.8, 0, 0, 0])
-    bushing_law(inside.law, True, 0.999 * gap * across + [0.99 * slide, 0, 0, 0, 0, 0], np.zeros(6), force)
+    bushing_law(inside.law, inside.round_play, 0.999 * gap * across + [0.99 * slide, 0, 0, 0, 0, 0], np.zeros(6), force)
     np.testing.assert_array_equal(force, 0.0)
-    bushing_law(inside.law, True, (gap + 1e-3) * across, np.zeros(6), force)
+    bushing_law(inside.law, inside.round_play, (gap + 1e-3) * across, np.zeros(6), force)
     assert np.linalg.norm(force) > 100 and force @ across == pytest.approx(-np.linalg.norm(force), rel=1e-12)
 
 
