@@ -52,7 +52,7 @@ def clamp_frame(motion: Integrator) -> dict[str, Any]:
     count = len(model.bodies)
     states = bushing_states(model, motion.t, q, motion.v)
     pins = slice(0, 2 * (count + 1))
-    inside = slice(2 * (count + 1), None)
+    inside = slice(2 * (count + 1), 2 * (count + 1) + count)
     return {
         "clamp_position": q[links, 0:3],
         "clamp_rotation_vector": q[links, 6:9],

@@ -10,7 +10,6 @@ from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
-from beam.motion import SpeedRamp
 from beam.motion_reciprocating import ReciprocatingStroke
 from beam.scenario_entry import Entry, Part
 from beam.scenario_fault import first_fault
@@ -29,6 +28,7 @@ from beam.scenario_tables import (
     Walls,
 )
 from beam.surface import Travel
+from beam.towing_drive import shearer_motion, trolley_motion
 from beam.towing_path import Pieces, bend_pieces
 from geometry.errors import SpecError
 from homogenize.section_stiffness import SectionInertia, SectionStiffness
@@ -118,15 +118,12 @@ class Scenario(Part):
             return ReciprocatingStroke(
                 machine.stroke.value, drive.speed.value, ramp, machine.pause.value, drive.ramp_start.value
             )
-        return SpeedRamp(self.drive.speed.value, self.drive.ramp_start.value, self.drive.ramp_end.value)
+        return shearer_motion(self)
 
     @property
     def trolley(self) -> Travel:
         """Motion of the roller; without a roller, of the place of the bend."""
-        drive = self.drive
-        return SpeedRamp(
-            drive.speed.value, drive.ramp_start.value, drive.ramp_end.value, ratio=drive.trolley_ratio.value
-        )
+        return trolley_motion(self)
 
     @property
     def cable_inertia(self) -> SectionInertia:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from beam.towing_drive import drive_fault
+
 if TYPE_CHECKING:
     from beam.scenario import Scenario
 
@@ -21,7 +23,7 @@ FEWEST_LINKS = 4
 
 def first_fault(scenario: Scenario) -> str:
     """The first thing that cannot be true, as a sentence; empty if there is none."""
-    checks = (_time_fault, _kind_fault, _shape_fault, _stroke_fault, _mesh_fault, _roller_fault, _clamp_fault)
+    checks = (_time_fault, _kind_fault, drive_fault, _shape_fault, _stroke_fault, _mesh_fault, _roller_fault, _clamp_fault)
     return next((fault for check in checks if (fault := check(scenario))), "")
 
 

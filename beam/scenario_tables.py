@@ -9,6 +9,7 @@ from typing import Annotated
 
 import numpy as np
 
+from beam.scenario_curve import tabulated
 from beam.scenario_entry import Entry, Part, quantity
 
 
@@ -43,12 +44,21 @@ class Layout(Part):
 
 
 class Drive(Part):
-    """Shearer and trolley."""
+    """Shearer and trolley; the optional keys are explained in :mod:`beam.towing_drive`."""
 
     speed: Annotated[Entry, quantity("m/s", 1e-4, 10.0)]
     trolley_ratio: Annotated[Entry, quantity("1", 0.0, 1.0)]
     ramp_start: Annotated[Entry, quantity("s", 0.0, 1e3)]
     ramp_end: Annotated[Entry, quantity("s", 1e-3, 1e3)]
+    curve: Annotated[Entry, tabulated] | None = None
+    trolley_error: Annotated[Entry, quantity("1", -0.5, 0.5)] | None = None
+    tooth_error: Annotated[Entry, quantity("m", 0.0, 0.1)] | None = None
+    tooth_pitch: Annotated[Entry, quantity("m", 1e-4, 10.0)] | None = None
+    chain_pockets: Annotated[Entry, quantity("1", 3, 100)] | None = None
+    chain_radius: Annotated[Entry, quantity("m", 1e-3, 10.0)] | None = None
+    tensioner_force: Annotated[Entry, quantity("N", -1e6, 1e6)] | None = None
+    tensioner_stroke: Annotated[Entry, quantity("m", 1e-3, 100.0)] | None = None
+    tensioner_damping: Annotated[Entry, quantity("N*s/m", 0.0, 1e9)] | None = None
 
 
 class Clamps(Part):

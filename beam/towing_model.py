@@ -27,6 +27,7 @@ from beam.section_law import DampingTimes, SectionLaw
 from beam.shape import strands_and_arcs
 from beam.surface import ContactLaw, Cylinder, FreeTurn, Plane, Spin, Surface
 from beam.towing_clamps import clamp_chain
+from beam.towing_drive import supply_tensioner
 from homogenize.section_stiffness import SectionInertia, SectionStiffness
 
 Array = NDArray[np.float64]
@@ -43,18 +44,19 @@ def towing_model(
     slope = scenario.layout.inclination.value
     gravity = (-STANDARD_GRAVITY * np.sin(slope), -STANDARD_GRAVITY * np.cos(slope), 0.0)
     surfaces, load = towing_surfaces(scenario), None
-    free_end = scenario.machine is not None
+    tensioner = supply_tensioner(scenario)
+    free_end = scenario.machine is not None or bool(tensioner)
     supply = Support(0, held=("y", "z", "theta")) if free_end else Support(0)
     if scenario.machine is not None:
         load = np.zeros((rod.nodes, 12))
         load[0, 0] = scenario.machine.tension.value
     supports = [supply, Support(-1, travel=scenario.pull)]
     if not scenario.has_clamps:
-        return RodModel(rod, q0, supports, gravity=gravity, load=load, surfaces=surfaces, law=law)
+        return RodModel(rod, q0, supports, gravity=gravity, load=load, surfaces=surfaces, law=law, bushings=tensioner)
     chain = clamp_chain(scenario, rod.s)
     return RodModel(
         rod, q0, supports, gravity=gravity, load=load, law=law,
-        bodies=chain.bodies, bushings=chain.bushings, body_surfaces=surfaces,
+        bodies=chain.bodies, bushings=[*chain.bushings, *tensioner], body_surfaces=surfaces,
     )  # fmt: skip
 
 

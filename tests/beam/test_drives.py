@@ -42,9 +42,10 @@ def test_polygon_effect_has_the_closed_form_ripple_mean_and_frequency():
     N, R = 5, 0.1
     chain = PolygonEffect(STEADY, N, R, harmonics=None)
     turn = 2 * np.pi * R * chain.mean_ratio / SPEED  # s
-    t = 0.01 + np.linspace(0, turn, 4001)
+    t = 0.01 + np.linspace(0, turn, 2001)
     u, v, _ = course(chain, t)
-    assert 1 - v.min() / v.max() == pytest.approx(1 - np.cos(np.pi / N), rel=1e-5)
+    # the kink is met within half a sample: sin(pi/N) pi/2000 of the speed, 0.5 % of the ripple
+    assert 1 - v.min() / v.max() == pytest.approx(1 - np.cos(np.pi / N), rel=5e-3)
     assert (u[-1] - u[0]) / turn == pytest.approx(SPEED, rel=1e-12)
     assert (np.diff(np.sign(v - SPEED)) != 0).sum() == 2 * N
     assert u[-1] - u[0] == pytest.approx(N * 2 * R * np.sin(np.pi / N), rel=1e-12)
@@ -53,14 +54,14 @@ def test_polygon_effect_has_the_closed_form_ripple_mean_and_frequency():
 def test_series_of_the_polygon_effect_converges_and_is_smooth():
     """The error of the speed falls like 1/M; mean and acceleration are those of the ramp where the wheel stands."""
     N, R = 6, 0.15
-    t = np.linspace(0.1, 8.0, 3001)
+    t = np.linspace(0.1, 4.0, 601)
     exact = course(PolygonEffect(STEADY, N, R, None), t)[1]
     errors = [np.abs(course(PolygonEffect(STEADY, N, R, M), t)[1] - exact).max() for M in (4, 8, 16)]
     assert errors[1] < 0.6 * errors[0] and errors[2] < 0.6 * errors[1]
     smooth = PolygonEffect(SpeedRamp(SPEED, 0.0, 2.0), N, R)
-    check_derivatives(smooth, np.linspace(0.01, 5.0, 200))
-    jump = np.abs(np.diff(course(smooth, np.linspace(0, 5, 20001))[2])).max()
-    assert jump < 0.002 * SPEED**2 / R * N**2
+    check_derivatives(smooth, np.linspace(0.01, 5.0, 60))
+    jump = np.abs(np.diff(course(smooth, np.linspace(0, 5, 2501))[2])).max()
+    assert jump < 0.016 * SPEED**2 / R * N**2
 
 
 def test_exact_polygon_effect_jumps_by_the_engagement_of_a_link():
@@ -177,7 +178,10 @@ def test_drive_table_of_a_scenario_makes_the_motions():
         ({"drive__chain_pockets": 5}, "belong together"),
         ({"drive__tensioner_stroke": "1 m"}, "tensioner_force"),
         ({"drive__curve": {"time": ["0 s", "0 s"], "speed": ["0 m/s", "1 m/s"]}}, "grow"),
-        ({"drive__curve": {"time": ["0 s", "60 s"], "speed": ["0 m/s", "4 m/s"]}, "time__duration": "20 s"}, "runs off|longer"),
+        (
+            {"drive__curve": {"time": ["0 s", "30 s"], "speed": ["0 m/s", "4 m/s"]}, "time__duration": "20 s"},
+            "runs off|longer",
+        ),
     ],
 )
 def test_drive_table_is_refused_in_a_sentence(values, word):
