@@ -5,7 +5,7 @@ import pytest
 
 from beam import published_section, read_scenario, tow
 from beam.generalized_alpha import Integrator, StepSettings
-from beam.statics import equilibrium
+from beam.statics import StaticSettings, equilibrium
 from beam.towing_comparison import comparison
 from beam.towing_model import towing_model
 
@@ -125,6 +125,15 @@ def test_run_that_cannot_go_on_names_what_and_when_and_keeps_the_rest():
     assert "at t = 0.0000 s" in stopped.status
     assert "body clamp" in stopped.status or "node" in stopped.status
     assert stopped.record()["notes"][0] == stopped.status
+
+
+def test_statics_that_does_not_arrive_names_the_link():
+    """Three steps are not enough for a chain to settle: the sentence says how many, where, and how far off."""
+    scenario = read_scenario("intelligent-horizontal").changed(**SHORT)
+    model = towing_model(scenario, published_section(scenario), scenario.cable_inertia)
+    rest = equilibrium(model, settings=StaticSettings(most_steps=3))
+    assert not rest.outcome.completed
+    assert "3 steps are used up" in str(rest.outcome) and "body clamp" in str(rest.outcome)
 
 
 LONG = {
