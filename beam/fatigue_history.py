@@ -71,7 +71,10 @@ def count_cycles(course: ArrayLike, smallest: float = 0.0) -> CycleCount:
 
 @dataclass(frozen=True)
 class FatigueHistory:
-    """Of every element, from the supply: arc length of its middle `s` [m], curvature [1/m] and tension [N] (time, element), their cycles."""
+    """Of every element, from the supply: arc length of its middle `s` [m], curvature [1/m] and tension [N] (time, element).
+
+    `bending_cycles` and `tension_cycles` are their rainflow cycles, one count an element.
+    """
 
     time: Array
     s: Array

@@ -29,7 +29,14 @@ def fatigue_figure(data: xarray.Dataset, history: FatigueHistory) -> Figure:
     radius.set(xlabel="time [s]", ylabel="smallest bend radius [mm]", title="Bend radius of the centre line")
     low = 1e3 * float(data["bend_radius"].values.min())
     radius.axhline(low, color="#777777", linestyle=":", linewidth=1)
-    radius.annotate(f"least {low:.0f} mm", (data["time"].values[-1], low), (0, -11), textcoords="offset points", ha="right", fontsize=8)
+    radius.annotate(
+        f"least {low:.0f} mm",
+        (data["time"].values[-1], low),
+        (0, -11),
+        textcoords="offset points",
+        ha="right",
+        fontsize=8,
+    )
     radius.margins(y=0.15)
     ranges.plot(history.s, history.curvature_range, color=BENDING, linewidth=1.5)
     ranges.set(xlabel="arc length from the supply [m]", title="Ranges of the sections over the run")
@@ -39,8 +46,16 @@ def fatigue_figure(data: xarray.Dataset, history: FatigueHistory) -> Figure:
     other.set_ylabel("range of the tension [N]", color=TENSION)
     other.set_ylim(0, None)
     ranges.set_ylim(0, None)
-    _cycles(bends, history.bending_cycles, "range of the curvature [1/m]", BENDING, "Rainflow cycles of bending, all sections")
-    _cycles(pulls, history.tension_cycles, "range of the tension [N]", TENSION, "Rainflow cycles of tension, all sections")
+    _cycles(
+        bends,
+        history.bending_cycles,
+        "range of the curvature [1/m]",
+        BENDING,
+        "Rainflow cycles of bending, all sections",
+    )
+    _cycles(
+        pulls, history.tension_cycles, "range of the tension [N]", TENSION, "Rainflow cycles of tension, all sections"
+    )
     for ax in (radius, bends, pulls):
         for side in ("top", "right"):
             ax.spines[side].set_visible(False)
@@ -53,4 +68,4 @@ def _cycles(ax: Any, counts: Sequence[CycleCount], label: str, colour: str, titl
     weight = np.concatenate([np.zeros(0), *(one.count for one in counts)]) / max(len(counts), 1)
     top = float(sizes.max()) if sizes.size else 1.0
     ax.hist(sizes, bins=list(np.linspace(0, top, 25)), weights=weight, color=colour, edgecolor="white", linewidth=0.5)
-    ax.set(xlabel=label, ylabel="cycles a section, mean", title=title)
+    ax.set(xlabel=label, ylabel="cycles a section, mean", title=title, yscale="log")

@@ -115,7 +115,9 @@ class _Scene:
         self.label = near.text(0.99, 0.92, "", transform=near.transAxes, ha="right", va="top", fontsize=10)
         what = "tension of cable (line) and links (bars) [N]" if self.links is not None else "tension [N]"
         self.figure.colorbar(self.moving[0]["line"], ax=self.views, label=what, pad=0.01)
-        self.figure.suptitle(self.scenario.title + "\nabove: whole, height stretched; below: the bend, true to scale", fontsize=10)
+        self.figure.suptitle(
+            self.scenario.title + "\nabove: whole, height stretched; below: the bend, true to scale", fontsize=10
+        )
 
     def draw(self, k: int) -> list[Any]:
         """Show the instant `k`."""
@@ -129,9 +131,10 @@ class _Scene:
                 one["bars"].set_array(self.chain[k])
             one["deck"].set_data([x, x + 100.0], [height - 0.03] * 2)
             one["wheel"].center = (x, R)
-        middle = x + R
-        self.views[1].set_xlim(middle - 4 * R, middle + 4 * R)
-        self.mark.set(x=middle - 4 * R, width=8 * R)
+        half = 1.75 * (max(2 * R, height) + 0.4)
+        left = x - 0.4 * half - R
+        self.views[1].set_xlim(left, left + 2 * half)
+        self.mark.set(x=left, width=2 * half)
         self.label.set_text(f"t = {self.time[k]:.1f} s")
         return []
 
@@ -157,6 +160,8 @@ def write_animation(data: xarray.Dataset, scenario: Scenario, folder: str | Path
     shown = instants(len(scene.time), frames)
     span = float(scene.time[-1] - scene.time[0])
     rate = max(len(shown) / max(span, 1e-9), 2.0) if span > 0 else 2.0
+    scene.figure.draw_without_rendering()
+    scene.figure.set_layout_engine("none")  # laid out once, not for every instant
     film = FuncAnimation(scene.figure, scene.draw, frames=[int(k) for k in shown], blit=False)
     writers = {"towing.gif": PillowWriter(fps=round(rate) or 1)}
     if FFMpegWriter.isAvailable():

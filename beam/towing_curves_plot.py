@@ -95,14 +95,18 @@ def _chain_panels(axes: Any, run: TowingRun) -> None:
         names = {"x": "along the chain (tension)", "y": "normal", "z": "across"}
         axes[0].plot(time, force, color=AXIS_COLOURS[axis], label=names[axis], linewidth=1.4)
     _dashed(axes[0], run, "bushing_3_amplitude", "published amplitude")
-    axes[0].legend(fontsize=8)
+    axes[0].legend(fontsize=8, loc="upper left", bbox_to_anchor=(0.0, 0.9))
     axes[1].plot(time, pressure(data, CONTACT), color="black", linewidth=1.3)
     marks = (("contact_35_start", "published start", 0.95), ("contact_35_maximum_at", "published maximum", 0.83))
     for key, label, height in marks:
         entry = getattr(run.scenario.published_results, key)
         if entry is not None:
             axes[1].axvline(entry.value, **PUBLISHED_STYLE)
-            place: dict[str, Any] = {"xycoords": axes[1].get_xaxis_transform(), "textcoords": "offset points", "fontsize": 8}
+            place: dict[str, Any] = {
+                "xycoords": axes[1].get_xaxis_transform(),
+                "textcoords": "offset points",
+                "fontsize": 8,
+            }
             axes[1].annotate(f"{label}: {entry.text}", (entry.value, height), (4, 0), **place)
 
 

@@ -11,6 +11,7 @@ import typer
 from beam import TowingRun, accurate_settings, builtin_scenarios, read_scenario
 from beam import tow as run_towing
 from beam.bending_history import bending_history
+from beam.fatigue_history import fatigue_history
 from beam.towing_comparison import comparison
 from beam.towing_record import write_contact_table
 from geometry.errors import ConvergenceError, SpecError
@@ -49,6 +50,9 @@ def tow(
             "--accurate", help="Half the step, iterated nearly to round-off: energy closed to 1e-6 of the work."
         ),
     ] = False,
+    animate: Annotated[
+        bool, typer.Option("--animate", help="With --out: animation (GIF; MP4 where ffmpeg is) and an interactive page.")
+    ] = False,
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with the run in DIR/run.nc that was ended from outside.")
     ] = False,
@@ -68,6 +72,8 @@ def tow(
         raise SpecError("no scenario was named: try helicable tow intelligent-horizontal, or helicable tow --list.")
     if resume and out is None:
         raise SpecError("--resume needs --out DIR, the folder in which the run was being written.")
+    if animate and out is None:
+        raise SpecError("--animate needs --out DIR, the folder that the animation is written to.")
     file = None if out is None else folder(out) / "run.nc"
     run, used = towing_run(
         scenario, constants, cable, element=element, chain=chain, file=file, resume=resume, accurate=accurate
@@ -78,6 +84,9 @@ def tow(
         table_file = write_contact_table(run.dataset, folder(out) / "contacts.csv")
         bending = bending_history(run.dataset).write(out / "bending.csv", run.scenario.cable.diameter.value)
         written = [run.write(folder(out) / "run.nc"), table_file, bending, *draw_run(run, out)]
+        written += write_fatigue(run, out)
+        if animate:
+            written += animate_run(run, out)
         record["run"] = str(written[0])
         write_json(out / "tow.json", record)
         say("written: " + ", ".join(map(str, written)))
@@ -224,6 +233,7 @@ def towing_json(run: TowingRun, used: BeamConstants) -> dict[str, Any]:
 
 def draw_run(run: TowingRun, out: Path) -> list[Path]:
     """Curves and the picture of the cable."""
+    from beam.towing_curves_plot import courses_figure, forces_figure
     from beam.towing_plot import cable_figure, energy_figure, node_force_figure, pull_force_figure
 
     written = []
@@ -231,9 +241,29 @@ def draw_run(run: TowingRun, out: Path) -> list[Path]:
         "cable": cable_figure,
         "node-forces": node_force_figure,
         "pull-force": pull_force_figure,
+        "forces": forces_figure,
+        "courses": courses_figure,
         "energies": energy_figure,
     }
     for name, draw in figures.items():
         written.append(out / f"towing-{name}.png")
         draw(run).savefig(written[-1], dpi=150)
     return written
+
+
+def write_fatigue(run: TowingRun, out: Path) -> list[Path]:
+    """Ranges and rainflow cycles of the sections as CSV, and their picture."""
+    from beam.fatigue_plot import fatigue_figure
+
+    history = fatigue_history(run.dataset)
+    picture = out / "towing-fatigue.png"
+    fatigue_figure(run.dataset, history).savefig(picture, dpi=150)
+    return [*history.write(out, run.scenario.cable.diameter.value), picture]
+
+
+def animate_run(run: TowingRun, out: Path) -> list[Path]:
+    """Animation of the run, and the page that moves it in a browser."""
+    from beam.towing_animation import write_animation
+    from beam.towing_page import write_page
+
+    return [*write_animation(run.dataset, run.scenario, out), write_page(run.dataset, run.scenario, out / "towing.html")]

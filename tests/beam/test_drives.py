@@ -7,8 +7,8 @@ import pytest
 
 from beam import read_scenario
 from beam.bodies_alone import bodies_alone
-from beam.hydraulic_tensioner import HydraulicTensioner
 from beam.generalized_alpha import Integrator, StepSettings
+from beam.hydraulic_tensioner import HydraulicTensioner
 from beam.motion import SpeedRamp
 from beam.motion_curve import MotionCurve
 from beam.movable_pulley import MovablePulley
