@@ -23,7 +23,16 @@ FEWEST_LINKS = 4
 
 def first_fault(scenario: Scenario) -> str:
     """The first thing that cannot be true, as a sentence; empty if there is none."""
-    checks = (_time_fault, _kind_fault, drive_fault, _shape_fault, _stroke_fault, _mesh_fault, _roller_fault, _clamp_fault)
+    checks = (
+        _time_fault,
+        _kind_fault,
+        drive_fault,
+        _shape_fault,
+        _stroke_fault,
+        _mesh_fault,
+        _roller_fault,
+        _clamp_fault,
+    )
     return next((fault for check in checks if (fault := check(scenario))), "")
 
 

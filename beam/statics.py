@@ -203,6 +203,4 @@ def _where(model: RodModel, forces: Forces) -> str:
         return f"{name[0].upper()}{name[1:]} has a force that is not a number: check the inputs that act there."
     node = int(np.argmax(np.abs(R[:, FORCE_ROWS]).max(axis=1)))
     worst = float(np.abs(R[node, FORCE_ROWS]).max())
-    return (
-        f"The residual is largest at {model.row_name(node)}, {worst:.2e} N: try a start shape closer to the supports and contacts."
-    )
+    return f"The residual is largest at {model.row_name(node)}, {worst:.2e} N: try a start shape closer to the supports and contacts."
