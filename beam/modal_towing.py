@@ -53,7 +53,7 @@ class PlaneTrough:
         out = np.stack([x - centre, y - R], axis=-1)
         distance = np.maximum(np.linalg.norm(out, axis=-1), 1e-9)
         out = out / distance[..., None]
-        leaving = (out[..., 0] * (speed[..., 0] - float(du[0])) + out[..., 1] * speed[..., 1])
+        leaving = out[..., 0] * (speed[..., 0] - float(du[0])) + out[..., 1] * speed[..., 1]
         force += _push(R - distance, -leaving, law.roller_stiffness.value, law.damping_time.value)[..., None] * out
         return force, moved
 
@@ -73,7 +73,9 @@ def modal_towing(
         If the scenario has no roller that turns freely.
     """
     if scenario.towing != "intelligent" or scenario.roller.friction is not None:
-        raise SpecError("modal bodies are towed round a smooth roller only: take an intelligent scenario without [roller].")
+        raise SpecError(
+            "modal bodies are towed round a smooth roller only: take an intelligent scenario without [roller]."
+        )
     C = np.asarray(section.C, dtype=float).diagonal()
     length = scenario.cable.length.value
     l, EI = length / count, float(C[4])

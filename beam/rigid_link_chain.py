@@ -34,6 +34,7 @@ from homogenize.section_stiffness import SectionInertia, SectionStiffness
 
 Array = NDArray[np.float64]
 
+NO_DAMPING = DampingTimes(0.0, 0.0)
 TOUCH = 0.5 / np.sqrt(3.0)
 """Place of a link's two contact points, from its middle, over its length: the Gauss points, which ride on the cable's radius."""
 
@@ -45,7 +46,7 @@ class LinkLaw:
     length: float
     section: SectionStiffness
     inertia: SectionInertia
-    damping: DampingTimes = DampingTimes(0.0, 0.0)
+    damping: DampingTimes = NO_DAMPING
 
     def bushing(self, first: str, second: str, number: int) -> Bushing:
         """The bushing between two neighbouring links, half a link from the middle of either."""
@@ -62,24 +63,26 @@ class LinkLaw:
         """The link with its middle at `position`, turned by `turn` [rad] about z."""
         mass = self.inertia.mass_per_length * self.length
         along = mass * self.length**2 / 12
-        J = self.length * np.array([self.inertia.J_x + self.inertia.J_y, self.inertia.J_x, self.inertia.J_y])
-        J = J + (0.0, along, along)
+        inertia = self.inertia
+        J = (self.length * inertia.J_z, self.length * inertia.J_x + along, self.length * inertia.J_y + along)
         touch = TOUCH * self.length
         points = ((-touch, 0.0, 0.0), (touch, 0.0, 0.0))
-        return RigidBody(
-            name, mass, tuple(J), tuple(position), (0.0, 0.0, turn), points=points, contact_length=self.length
-        )
+        return RigidBody(name, mass, J, tuple(position), (0.0, 0.0, turn), points=points, contact_length=self.length)
 
 
 def chain_of_links(pins: Array, turns: Array, law: LinkLaw) -> tuple[list[RigidBody], list[Bushing]]:
     """Links "link 0" ... between the `pins` (n + 1, 3) [m], turned by `turns` (n,) [rad] about z, and their bushings."""
     middles = 0.5 * (pins[:-1] + pins[1:])
-    bodies = [law.body(f"link {k}", middle, float(turn)) for k, (middle, turn) in enumerate(zip(middles, turns, strict=True))]
+    bodies = [
+        law.body(f"link {k}", middle, float(turn)) for k, (middle, turn) in enumerate(zip(middles, turns, strict=True))
+    ]
     bushings = [law.bushing(f"link {k}", f"link {k + 1}", k + 1) for k in range(len(bodies) - 1)]
     return bodies, bushings
 
 
-def cantilever_of_links(length: float, links: int, section: SectionStiffness, inertia: SectionInertia, moment: float) -> RodModel:
+def cantilever_of_links(
+    length: float, links: int, section: SectionStiffness, inertia: SectionInertia, moment: float
+) -> RodModel:
     """A straight cantilever of `links` links along x under the end moment `moment` [N m] about z.
 
     The first bushing stands half a link off the wall, with twice the stiffness: the cable between wall and first middle.

@@ -163,7 +163,7 @@ def write_animation(data: xarray.Dataset, scenario: Scenario, folder: str | Path
     scene.figure.draw_without_rendering()
     scene.figure.set_layout_engine("none")  # laid out once, not for every instant
     film = FuncAnimation(scene.figure, scene.draw, frames=[int(k) for k in shown], blit=False)
-    writers = {"towing.gif": PillowWriter(fps=round(rate) or 1)}
+    writers: dict[str, PillowWriter | FFMpegWriter] = {"towing.gif": PillowWriter(fps=round(rate) or 1)}
     if FFMpegWriter.isAvailable():
         writers["towing.mp4"] = FFMpegWriter(fps=round(rate) or 1)
     else:

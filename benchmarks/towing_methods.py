@@ -61,8 +61,18 @@ def rod_run(scenario: Scenario, elements: int) -> Run:
     seconds = time.process_time() - begin
     data, instants = run.dataset, run.dataset["time"].values
     pull = data["pull_force"].values[:, 0]
-    bending = -data["moment_local"].values[-1, :, 2]
-    return _run("rod", elements, 12 * (elements + 1), seconds, instants, pull, data["s"].values, data["force_local"].values[-1, :, 0], bending)
+    tension, bending = data["force_local"].values[-1, :, 0], data["moment_local"].values[-1, :, 2]
+    return _run(
+        "rod",
+        elements,
+        12 * (elements + 1),
+        seconds,
+        instants,
+        pull,
+        data["s"].values,
+        tension,
+        bending,
+    )
 
 
 def link_run(scenario: Scenario, links: int) -> Run:
@@ -81,7 +91,7 @@ def link_run(scenario: Scenario, links: int) -> Run:
         pull.append(float(motion.reaction[model.row(f"link {links - 1}"), 0]))
     seconds = time.process_time() - begin
     tension, moment = pin_forces(model, motion.t, motion.q, motion.v)
-    s = scenario.cable.length.value / links * np.arange(1, links)
+    s = np.arange(1.0, links) * (scenario.cable.length.value / links)
     return _run("rigid links", links, 6 * links, seconds, np.array(instants), np.array(pull), s, tension, moment)
 
 
@@ -94,19 +104,26 @@ def modal_run(scenario: Scenario, bodies: int, modes: int = 3) -> Run:
     motion = ModalMotion(chain, modal_equilibrium(smooth, X, 1e-2).X, np.zeros_like(X))
     instants, pull = [0.0], [float(chain.bushing_forces(0.0, motion.X, motion.V)[0][-1])]
     for _ in range(round(scenario.time.duration.value / FRAME)):
-        for _ in range(round(FRAME / 5e-3)):
-            motion.step(5e-3, 1e-2)
+        motion.advance(FRAME, 5e-3, 1e-2)
         instants.append(motion.t)
         pull.append(float(chain.bushing_forces(motion.t, motion.X, motion.V)[0][-1]))
     seconds = time.process_time() - begin
     tension, moment = chain.bushing_forces(motion.t, motion.X, motion.V)
-    s = chain.length * np.arange(bodies + 1)
+    s = np.arange(bodies + 1.0) * chain.length
     unknowns = bodies * chain.size
     return _run("modal bodies", bodies, unknowns, seconds, np.array(instants), np.array(pull), s, tension, moment)
 
 
 def _run(
-    method: str, pieces: int, unknowns: int, seconds: float, instants: Array, pull: Array, s: Array, tension: Array, bending: Array
+    method: str,
+    pieces: int,
+    unknowns: int,
+    seconds: float,
+    instants: Array,
+    pull: Array,
+    s: Array,
+    tension: Array,
+    bending: Array,
 ) -> Run:
     late = instants > 0.75 * instants[-1]
     moment = float(np.abs(bending).max())
@@ -162,13 +179,20 @@ def draw(record: dict, out: Path) -> None:
     styles = {20: ":", 40: "--", 80: "-", 200: "-"}
     for run in record["towing"]:
         colour, width = looks[run["method"]]
-        style = {"color": colour, "linewidth": width, "linestyle": styles[run["pieces"]], "label": f"{run['method']}, {run['pieces']}"}
+        style = {
+            "color": colour,
+            "linewidth": width,
+            "linestyle": styles[run["pieces"]],
+            "label": f"{run['method']}, {run['pieces']}",
+        }
         axes[0].plot(run["time"], run["pull"], **style)
         axes[1].plot(run["s"], run["tension"], **style)
         axes[2].plot(run["s"], run["bending"], **style)
     axes[0].set(xlabel="time [s]", ylabel="pull force [N]", title="Pull force of the shearer")
     axes[1].set(xlabel="arc length from the supply [m]", ylabel="tension [N]", title="Tension at 3 s")
-    axes[2].set(xlabel="arc length from the supply [m]", ylabel="bending moment [N m]", title="Bending moment (size) at 3 s")
+    axes[2].set(
+        xlabel="arc length from the supply [m]", ylabel="bending moment [N m]", title="Bending moment (size) at 3 s"
+    )
     axes[0].legend(fontsize=8)
     for ax in axes:
         ax.grid(True, color="#e5e5e5", linewidth=0.6)
