@@ -97,7 +97,7 @@ def _chain_panels(axes: Any, run: TowingRun) -> None:
     _dashed(axes[0], run, "bushing_3_amplitude", "published amplitude")
     axes[0].legend(fontsize=8, loc="upper left", bbox_to_anchor=(0.0, 0.9))
     axes[1].plot(time, pressure(data, CONTACT), color="black", linewidth=1.3)
-    marks = (("contact_35_start", "published start", 0.95), ("contact_35_maximum_at", "published maximum", 0.83))
+    marks = (("contact_35_start", "published start", 0.88), ("contact_35_maximum_at", "published maximum", 0.88))
     for key, label, height in marks:
         entry = getattr(run.scenario.published_results, key)
         if entry is not None:
@@ -107,7 +107,7 @@ def _chain_panels(axes: Any, run: TowingRun) -> None:
                 "textcoords": "offset points",
                 "fontsize": 8,
             }
-            axes[1].annotate(f"{label}: {entry.text}", (entry.value, height), (4, 0), **place)
+            axes[1].annotate(f"{label}:\n{entry.text}", (entry.value, height), (4, 0), **place)
 
 
 def _tension_panels(axes: Any, run: TowingRun) -> None:
