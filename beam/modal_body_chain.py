@@ -128,7 +128,7 @@ class ModalChain:
         acceleration = np.einsum("nkif,nf->nki", J, A) - rate**2 * outward + 2 * rate * turned
         pull = self.mass * (acceleration - np.array(self.gravity))
         moved = anchors
-        if self.touch is not None:
+        if self.touch is not None and anchors is not None:
             place = self.points(X, self.xi, self.Y)
             force, moved = self.touch(t, place, np.einsum("nkif,nf->nki", J, V), anchors)
             pull = pull - force
@@ -274,7 +274,7 @@ class ModalMotion:
                     near = slice(max(j - 1, 0), j + 2)
                     K[near, :, j, c] = change[near]
         self.tangents += 1
-        return np.linalg.inv(K.reshape(n * f, n * f))
+        return np.asarray(np.linalg.inv(K.reshape(n * f, n * f)), dtype=np.float64)
 
 
 def modal_equilibrium(chain: ModalChain, X: Array, tolerance: float = 1e-3, steps: int = 120) -> ModalMotion:

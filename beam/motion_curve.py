@@ -33,7 +33,7 @@ class MotionCurve:
     --------
     >>> curve = MotionCurve((0.0, 1.0, 3.0), (0.0, 0.2, 0.2))
     >>> [round(float(x[0]), 6) for x in curve(4.0)]
-    [0.716667, 0.2, 0.0]
+    [0.7, 0.2, 0.0]
     """
 
     times: ArrayLike

@@ -12,8 +12,8 @@ import numpy as np
 
 from beam import read_scenario, tow
 
-TEETH = {"drive__tooth_error": "0.5 mm", "drive__tooth_pitch": "125 mm"}
-CHAIN = {"drive__chain_pockets": 5, "drive__chain_radius": "80 mm"}
+TEETH: dict[str, object] = {"drive__tooth_error": "0.5 mm", "drive__tooth_pitch": "125 mm"}
+CHAIN: dict[str, object] = {"drive__chain_pockets": 5, "drive__chain_radius": "80 mm"}
 CASES: dict[str, dict[str, object]] = {
     "ramp only": {},
     "teeth 0.5 mm, pitch 125 mm": TEETH,
