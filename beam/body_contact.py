@@ -48,11 +48,11 @@ def body_point(p: Array, w: float, P: Array, anchor: Array, moved: Array, report
         a0, a1, a2 = anchor[0] * p[24] - anchor[1] * p[25], anchor[0] * p[25] + anchor[1] * p[24], anchor[2]
         if anchor[0] != anchor[0]:
             a0, a1, a2 = y0, y1, y2
-        b0, b1, b2, t0, t1, t2 = bristle(p, y0, y1, y2, a0, a1, a2, u0, u1, u2, n0, n1, n2, closing)
+        b0, b1, b2, t0, t1, t2, slid = bristle(p, y0, y1, y2, a0, a1, a2, u0, u1, u2, n0, n1, n2, closing, limit)
         size = np.sqrt(t0 * t0 + t1 * t1 + t2 * t2)
         if size > limit:
             t0, t1, t2 = limit / size * t0, limit / size * t1, limit / size * t2
-            b0, b1, b2 = -t0 / p[4], -t1 / p[4], -t2 / p[4]
+        if slid:
             a0, a1, a2 = y0 - b0, y1 - b1, y2 - b2
         moved[0], moved[1], moved[2] = a0 * p[24] + a1 * p[25], a1 * p[24] - a0 * p[25], a2
         report[1] += w * 0.5 * p[4] * (b0 * b0 + b1 * b1 + b2 * b2)

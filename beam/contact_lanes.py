@@ -47,7 +47,7 @@ def point_contacts(W: Array, p: Array, N: Array, w: float, begin: float) -> None
         u0, u1, u2 = u0 - z0, u1 - z1, u2 - s2
         closing = -(m0 * u0 + m1 * u1 + m2 * u2)
         fn = max(kn * gap + cn * closing, 0.0)
-        # bristle from the anchor, trial friction, return to the cone
+        # bristle from the anchor, which it may drag, trial friction, return to the cone
         d0, d1, a2 = W[ANCHOR + l], W[ANCHOR + 8 + l], W[ANCHOR + 16 + l]
         held = d0 == d0
         a0 = d0 * cosine - d1 * sine if held else y0
@@ -55,15 +55,17 @@ def point_contacts(W: Array, p: Array, N: Array, w: float, begin: float) -> None
         a2 = a2 if held else y2
         along = m0 * (y0 - a0) + m1 * (y1 - a1) + m2 * (y2 - a2)
         b0, b1, b2 = y0 - a0 - along * m0, y1 - a1 - along * m1, y2 - a2 - along * m2
+        elastic, limit = kt * np.sqrt(b0 * b0 + b1 * b1 + b2 * b2), mu * fn
+        slid = elastic > limit
+        scale = limit / elastic if slid else 1.0
+        b0, b1, b2 = scale * b0, scale * b1, scale * b2
         t0 = -kt * b0 - ct * (u0 + closing * m0)
         t1 = -kt * b1 - ct * (u1 + closing * m1)
         t2 = -kt * b2 - ct * (u2 + closing * m2)
-        size, limit = np.sqrt(t0 * t0 + t1 * t1 + t2 * t2), mu * fn
-        slips = size > limit
-        scale = limit / size if slips else 1.0
+        size = np.sqrt(t0 * t0 + t1 * t1 + t2 * t2)
+        scale = limit / size if size > limit else 1.0
         t0, t1, t2 = scale * t0, scale * t1, scale * t2
-        b0, b1, b2 = -t0 / kt if slips else b0, -t1 / kt if slips else b1, -t2 / kt if slips else b2
-        a0, a1, a2 = y0 - b0 if slips else a0, y1 - b1 if slips else a1, y2 - b2 if slips else a2
+        a0, a1, a2 = y0 - b0 if slid else a0, y1 - b1 if slid else a1, y2 - b2 if slid else a2
         put(W, MOVED + l, a0 * cosine + a1 * sine if touches & rubs else np.nan, a1 * cosine - a0 * sine, a2)
         f0, f1, f2 = fn * m0 + t0, fn * m1 + t1, fn * m2 + t2
         W[REPORT + l] += weight * 0.5 * kn * gap * gap

@@ -145,7 +145,7 @@ def test_many_values_make_a_map(scenario, done, monkeypatch):
 
 
 def test_nothing_is_computed_twice(scenario, done, monkeypatch):
-    """The same sweep again finds all its rows; one that was deleted is made again, alone."""
+    """The same sweep again finds all its rows; one that was deleted is made again, alone; a damaged one is a sentence."""
     import beam.parameter_sweep as module
 
     asked = []
@@ -154,7 +154,11 @@ def test_nothing_is_computed_twice(scenario, done, monkeypatch):
     sweep(scenario, done.axes, done.path)
     assert asked == []
     _, id = done.places[2]
-    (done.path / "runs" / f"{id}.json").unlink()
+    file = done.path / "runs" / f"{id}.json"
+    file.write_text("{")
+    with pytest.raises(InputError, match="delete it and repeat the command"):
+        done.rows()
+    file.unlink()
     sweep(scenario, done.axes, done.path)
     assert asked == [id]
 
