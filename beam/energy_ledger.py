@@ -59,7 +59,9 @@ class EnergyLedger:
     def step(self, h: float, forces: Forces) -> None:
         """Add the step of length `h` [s] that ended with these forces."""
         powers = self._power(forces)
-        damping, contact, friction, drive, bushing = (0.5 * h * (x + y) for x, y in zip(powers, self._powers, strict=True))
+        damping, contact, friction, drive, bushing = (
+            0.5 * h * (x + y) for x, y in zip(powers, self._powers, strict=True)
+        )
         self._powers = powers
         self._store(forces)
         self.totals["damping_loss"] += damping
@@ -75,7 +77,9 @@ class EnergyLedger:
         stored = self._stored()
         exchanged = 0.5 * sum(abs(x - y) for x, y in zip(stored, self._last, strict=True))
         self._last = stored
-        self.throughput += max(abs(drive), exchanged, abs(damping) + abs(contact) + abs(friction) + abs(law) + abs(bushing))
+        self.throughput += max(
+            abs(drive), exchanged, abs(damping) + abs(contact) + abs(friction) + abs(law) + abs(bushing)
+        )
 
     def shift(self, forces: Forces, potential: float) -> None:
         """A rotation vector went to its other branch, where constant moments have the potential `potential` [J]."""
@@ -100,7 +104,13 @@ class EnergyLedger:
 
     def _power(self, forces: Forces) -> tuple[float, ...]:
         drive = forces.held_power + forces.surface_power
-        return forces.damping_power, forces.contact_damping_power, forces.friction_power, drive, forces.bushing_damping_power
+        return (
+            forces.damping_power,
+            forces.contact_damping_power,
+            forces.friction_power,
+            drive,
+            forces.bushing_damping_power,
+        )
 
     def _stored(self) -> tuple[float, ...]:
         return tuple(self.totals[name] for name in (*STORED, BUSHING) if name in self.totals)

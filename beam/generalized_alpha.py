@@ -461,7 +461,9 @@ class Integrator:
         if code == NOT_FINITE:
             broken = np.argwhere(~np.isfinite(R))
             node = int(broken[0, 0]) if len(broken) else 0
-            detail = f"It appeared at {self.model.row_name(node)} in the step to t = {t:.4f} s; the state before it is kept."
+            detail = (
+                f"It appeared at {self.model.row_name(node)} in the step to t = {t:.4f} s; the state before it is kept."
+            )
             self.outcome = Outcome(Status.NOT_FINITE, detail)
             return
         node = int(np.argmax(np.abs(R[:, 0:3]).max(axis=1)))

@@ -23,7 +23,9 @@ class Factor:
 
     def __init__(self, blocks: Blocks) -> None:
         self._blocks = blocks
-        self._sparse = SparseFactor(blocks.pattern, blocks.store) if blocks.pattern and blocks.store is not None else None
+        self._sparse = (
+            SparseFactor(blocks.pattern, blocks.store) if blocks.pattern and blocks.store is not None else None
+        )
         if self._sparse is not None:
             self.singular_node = self._sparse.singular_node
             return
