@@ -27,6 +27,7 @@ from beam.towing_frame import empty_dataset
 from beam.towing_model import mass_per_length, towing_model
 from beam.towing_restart import checkpoint_path, resumed_run
 from beam.towing_run import Frames, TowingRun, run_attributes
+from geometry.errors import ConvergenceError
 from homogenize.section_stiffness import SectionInertia, SectionStiffness
 
 Progress = Callable[[float, str], None]
@@ -108,6 +109,7 @@ def tow(
         tell(k / frames, f"{motion.t:.2f} s of {scenario.time.duration.value:g} s")
     outcome: Outcome = motion.outcome
     if not outcome.completed:
+        outcome = replace(outcome, detail=f"{outcome.detail} {_play_hint(scenario)}".strip())
         logger.warning("%s", outcome)
     elif path is not None:
         checkpoint_path(path).unlink(missing_ok=True)
@@ -141,7 +143,8 @@ def _started_run(
 ) -> tuple[Integrator, Frames, tuple[float, float]]:
     """Static start, first instant, residual of the equilibrium."""
     start = equilibrium(model)
-    start.outcome.require_success()
+    if not start.outcome.completed:
+        raise ConvergenceError(f"no equilibrium to start from: {start.outcome} {_play_hint(scenario)}".strip())
     residual = (start.residual_force, start.residual_moment)
     logger.info("static residual %.1e N, %.1e N m", *residual)
     motion = Integrator(model, start.q, anchors=start.anchors, settings=settings, memory=start.memory)
@@ -154,6 +157,14 @@ def _started_run(
     if path is not None:
         write_checkpoint(motion, checkpoint_path(path))
     return motion, record, residual
+
+
+def _play_hint(scenario: Scenario) -> str:
+    """What play in the pins does to a run that cannot start or go on; empty without it."""
+    if not scenario.has_clamps or scenario.clamps is None or scenario.clamps.pin_play.value == 0:
+        return ""
+    play = 1e3 * scenario.clamps.pin_play.value
+    return f"Pins with {play:g} mm of play make the chain a mechanism: try clamps.pin_play = 0 mm, or less of it."
 
 
 def _steps(scenario: Scenario, settings: StepSettings | None) -> tuple[StepSettings, int, int]:

@@ -165,7 +165,7 @@ def _notes(run: TowingRun) -> list[str]:
 CHAIN_NOTES = (
     "Forces at a node are the cable's alone; chain_Fx_plateau is what the clamp chain carries beside it.",
     "Links, pins and bushings are counted from the shearer, two bushings a pin; the source's numbering is not open.",
-    "contacts is empty: trough, deck, walls and roller touch the links, see clamp_contact_force.",
+    "contacts are those of the links, which keep the cable off trough, deck, walls and roller; link by link: clamp_contact_force.",
 )
 SMEARED_NOTES = (
     "bushing_3_amplitude is null: the clamps are mass on the cable here, there are no bushings.",

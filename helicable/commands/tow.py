@@ -51,7 +51,8 @@ def tow(
         ),
     ] = False,
     animate: Annotated[
-        bool, typer.Option("--animate", help="With --out: animation (GIF; MP4 where ffmpeg is) and an interactive page.")
+        bool,
+        typer.Option("--animate", help="With --out: animation (GIF; MP4 where ffmpeg is) and an interactive page."),
     ] = False,
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with the run in DIR/run.nc that was ended from outside.")
@@ -266,4 +267,7 @@ def animate_run(run: TowingRun, out: Path) -> list[Path]:
     from beam.towing_animation import write_animation
     from beam.towing_page import write_page
 
-    return [*write_animation(run.dataset, run.scenario, out), write_page(run.dataset, run.scenario, out / "towing.html")]
+    return [
+        *write_animation(run.dataset, run.scenario, out),
+        write_page(run.dataset, run.scenario, out / "towing.html"),
+    ]

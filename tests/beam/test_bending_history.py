@@ -23,7 +23,7 @@ def test_strain_range_at_the_rim_is_half_the_diameter_times_the_range_of_curvatu
     """From +1/R to -1/R: the range is 2/R, the strain d/R."""
     history = BendingHistory(np.arange(3.0), np.array([0.1]), np.array([[2.0], [0.0], [-2.0]]), np.array([1]))
     with history.write(tmp_path / "bending.csv", 0.05).open(encoding="utf-8") as file:
-        row = list(csv.DictReader(file))[0]
+        row = next(iter(csv.DictReader(file)))
     assert float(row["curvature range [1/m]"]) == pytest.approx(4.0)
     assert float(row["strain range at the rim [1]"]) == pytest.approx(0.1)
 

@@ -5,8 +5,10 @@ import pytest
 
 from beam import published_section, read_scenario
 from beam.bushing import GROUND, Bushing
+from beam.contact_force import gap_and_normal
+from beam.rod import GAUSS_X
 from beam.towing_clamps import clamp_chain, link_middles
-from beam.towing_model import mass_per_length, towing_model
+from beam.towing_model import mass_per_length, towing_model, towing_surfaces
 from beam.towing_path import bend_pieces, chain_pins
 from geometry.errors import SpecError
 
@@ -69,6 +71,52 @@ def test_bushings_and_links_are_counted_from_the_shearer(scenario):
     assert (found["bushing 3"].first, found["bushing 3"].second) == ("clamp 2", "clamp 1")
     assert (found["bushing 200"].first, found["bushing 200"].second) == (0, "clamp 99")
     assert chain.bodies[-1].name == "clamp 1"
+    side = 0.5 * scenario.clamps.pin_width.value
+    for name, bushing in found.items():
+        if name.startswith("bushing"):  # odd numbers lie on the side of positive z
+            z = side if int(name.split()[-1]) % 2 else -side
+            assert bushing.first_point[2] == bushing.second_point[2] == z
+
+
+def depth(surface, point, t=0.0):
+    """How far a point is in a surface [m]."""
+    return gap_and_normal(surface.parameters(t), *point)[0]
+
+
+def test_walls_stand_at_the_clearance_from_the_links(scenario):
+    """A link's edge in the middle of the trough is clear of both walls by walls.clearance; it enters the one it goes to."""
+    chosen = read_scenario("intelligent-downward").changed(walls__clearance="40 mm", clamps__width="90 mm")
+    walls = {s.name: s for s in towing_surfaces(chosen) if "wall" in s.name}
+    assert len(walls) == 2
+    left, right = walls["left wall"], walls["right wall"]
+    for moved in (-0.05, 0.0, 0.05):
+        edges = [(moved + side * 0.045) for side in (1, -1)]
+        assert max(depth(left, (0, 0, z)) for z in edges) == pytest.approx(-0.04 - moved, abs=1e-12)
+        assert max(depth(right, (0, 0, z)) for z in edges) == pytest.approx(-0.04 + moved, abs=1e-12)
+
+
+def test_roller_and_deck_go_half_the_way_of_the_shearer(scenario):
+    """Movable pulley: the axis of the roller and the edge of the deck move by half of what the shearer moves."""
+    roller, deck = ({s.name: s for s in towing_surfaces(scenario)}[name] for name in ("roller", "deck"))
+    way = scenario.pull(7.0)[0][0] - scenario.pull(0.0)[0][0]
+    assert way > 0.5
+    for surface, entry in ((roller, 10), (deck, 17)):
+        moved = surface.parameters(7.0)[entry] - surface.parameters(0.0)[entry]
+        assert moved == pytest.approx(0.5 * way, rel=1e-12)
+    assert roller.parameters(7.0)[13] == pytest.approx(0.5 * scenario.pull(7.0)[1][0], rel=1e-12)
+
+
+def test_disturbance_is_a_wave_across_the_trough():
+    """z = A sin(k s): stress-free curvature A k^2 sin(k s) about the normal of the strand, and about no other axis."""
+    wavy = read_scenario("conventional-horizontal").changed(
+        cable__elements=100, disturbance__amplitude="4 mm", disturbance__wave_length="2 m"
+    )
+    straight = wavy.changed(disturbance__amplitude="0 mm")
+    rods = [towing_model(one, published_section(one), one.cable_inertia).rod for one in (wavy, straight)]
+    change = rods[0].E0 - rods[1].E0
+    s = rods[0].s[:-1, None] + GAUSS_X * rods[0].lengths[:, None]
+    np.testing.assert_allclose(change[:, :, 4], 4e-3 * np.pi**2 * np.sin(np.pi * s), rtol=0, atol=1e-12)
+    assert np.abs(np.delete(change, 4, axis=2)).max() == 0.0
 
 
 @pytest.mark.parametrize("direction", range(6))

@@ -1,5 +1,7 @@
 """Towing with the clamps as bodies: balances, the movable pulley, contacts that open and close, buckling, what is kept."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,8 @@ from beam.generalized_alpha import Integrator, StepSettings
 from beam.statics import StaticSettings, equilibrium
 from beam.towing_comparison import comparison
 from beam.towing_model import towing_model
+from beam.towing_record import write_contact_table
+from geometry.errors import ConvergenceError
 
 SHORT = {
     "cable__length": "6.4 m", "cable__elements": 40, "layout__upper_strand": "3.2 m", "layout__slack": "20 mm",
@@ -40,7 +44,7 @@ def test_momentum_of_cable_and_links():
     rest = equilibrium(model)
     rest.outcome.require_success()
     motion = Integrator(model, rest.q, anchors=rest.anchors, settings=StepSettings(relative=1e-10, absolute=1e-6))
-    assert motion.advance(40)
+    assert motion.advance(20)
     n = model.rod.nodes
     total = motion.reaction[: model.moving, 0:3].sum(axis=0) + motion.forces.body_contact.sum(axis=0)
     total += model.weight[: model.moving, 0:3].sum(axis=0)
@@ -80,14 +84,44 @@ def test_links_open_and_close_their_contacts(run):
 
 
 def test_pin_carries_what_the_cable_does_not(run):
-    """Cut next to the shearer: pull = cable + both bushings of pin 1, where no mass is left."""
+    """Cut next to the shearer: pull = cable + both bushings of pin 1, where no mass is left; the chain pulls, too."""
     data = run.dataset
-    chain = data["chain_force"].sel(pin=1).values[0, 0]
-    cable = data["force_global"].sel(node=0).values[0, 0]
-    assert chain + cable == pytest.approx(float(data["pull_force"].values[0, 0]), abs=0.5)
+    chain = data["chain_force"].sel(pin=1).values[:, 0]
+    cable = data["force_global"].sel(node=0).values[:, 0]
+    np.testing.assert_allclose(chain + cable, data["pull_force"].values[:, 0], rtol=0, atol=0.5)
+    assert chain.max() > 20.0
     along = data["bushing_force"].sel(direction="x").values
     pairs = along.reshape(len(along), -1, 2)
     np.testing.assert_allclose(pairs[..., 0], pairs[..., 1], rtol=0, atol=1e-6)  # nothing moves across
+
+
+def test_contacts_of_the_links_add_up_by_surface(run):
+    """Trough, deck and roller together push the links as link by link; friction obeys Coulomb; the roller is smooth."""
+    data, mu = run.dataset, run.scenario.contact.friction.value
+    by_surface, by_link = (data[name].values.sum(axis=1) for name in ("surface_force", "clamp_contact_force"))
+    np.testing.assert_allclose(by_surface, by_link, rtol=0, atol=1e-8)
+    normal, friction = (
+        data[f"surface_{name}"].sel(surface=["trough", "deck"]).values for name in ("normal", "friction")
+    )
+    assert (friction <= mu * normal * (1 + 1e-9)).all() and friction.max() > 5.0
+    np.testing.assert_allclose(normal, data["surface_force"].sel(surface=["trough", "deck"], axis="y"), rtol=1e-9)
+    contacts = run.record()["contacts"]
+    assert contacts["roller"]["friction_max"] == pytest.approx(0.0, abs=1e-9) and contacts["roller"]["normal_max"] > 10
+    assert contacts["deck"]["slip_share_end"] > 0.5 and contacts["trough"]["gap_min"] < 0
+    head, *rows = write_contact_table(data, run.frames.file.path.parent / "contacts.csv").read_text().splitlines()
+    assert "deck friction [N]" in head and len(rows) == data.sizes["time"]
+
+
+def test_tensioner_stands_in_the_supply_reaction():
+    """Cylinder with constant force in place of the fixed end: what holds cable and chain there is its force."""
+    scenario = read_scenario("intelligent-horizontal").changed(
+        **SHORT | {"time__duration": "20 ms"}, drive__tensioner_force="200 N"
+    )
+    data = tow(scenario).dataset
+    held = data["supply_reaction"].values[0, 0]
+    last = data["chain_force"].sel(pin=data["pin"].values[0]).values[0, 0]
+    assert held == pytest.approx(-200.0, abs=1e-6)
+    assert held == pytest.approx(last + data["force_global"].sel(node=40).values[0, 0], abs=1e-3)
 
 
 def test_record_has_what_the_source_reports(run):
@@ -103,18 +137,20 @@ def test_record_has_what_the_source_reports(run):
     assert rows["lateral_displacement_max"].ratio is None  # not reported for this condition
 
 
-def test_run_with_bodies_that_was_stopped_goes_on_bit_by_bit(run, tmp_path):
+def test_run_with_bodies_that_was_stopped_goes_on_bit_by_bit(tmp_path):
     """The state of links and bushings is in the checkpoint: the file ends up with the same bytes."""
-    path = tmp_path / "run.nc"
+    path, whole = tmp_path / "run.nc", tmp_path / "whole.nc"
+    scenario = read_scenario("intelligent-horizontal").changed(**SHORT | {"time__duration": "0.2 s"})
+    tow(scenario, file=whole)
 
     def stop(fraction, sentence):
         if fraction > 0.4:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        tow(run.scenario, file=path, checkpoint_every=0.0, progress=stop)
-    tow(run.scenario, file=path, resume=True)
-    assert path.read_bytes() == run.frames.file.path.read_bytes()
+        tow(scenario, file=path, checkpoint_every=0.0, progress=stop)
+    tow(scenario, file=path, resume=True)
+    assert path.read_bytes() == whole.read_bytes()
 
 
 def test_run_that_cannot_go_on_names_what_and_when_and_keeps_the_rest():
@@ -125,6 +161,14 @@ def test_run_that_cannot_go_on_names_what_and_when_and_keeps_the_rest():
     assert "at t = 0.0000 s" in stopped.status
     assert "body clamp" in stopped.status or "node" in stopped.status
     assert stopped.record()["notes"][0] == stopped.status
+
+
+def test_play_in_the_pins_that_finds_no_equilibrium_is_a_sentence(monkeypatch):
+    """A chain whose pins are loose is a mechanism: the sentence says which link, and which key to change."""
+    few = partial(equilibrium, settings=StaticSettings(most_steps=3))
+    monkeypatch.setattr("beam.towing.equilibrium", few)
+    with pytest.raises(ConvergenceError, match=r"body clamp .*try clamps.pin_play = 0 mm"):
+        tow(read_scenario("intelligent-horizontal").changed(**SHORT, clamps__pin_play="1 mm"))
 
 
 def test_statics_that_does_not_arrive_names_the_link():
