@@ -54,7 +54,7 @@ def test_polygon_effect_has_the_closed_form_ripple_mean_and_frequency():
 def test_series_of_the_polygon_effect_converges_and_is_smooth():
     """The error of the speed falls like 1/M; mean and acceleration are those of the ramp where the wheel stands."""
     N, R = 6, 0.15
-    t = np.linspace(0.1, 4.0, 601)
+    t = np.linspace(0.1, 4.0, 301)
     exact = course(PolygonEffect(STEADY, N, R, None), t)[1]
     errors = [np.abs(course(PolygonEffect(STEADY, N, R, M), t)[1] - exact).max() for M in (4, 8, 16)]
     assert errors[1] < 0.6 * errors[0] and errors[2] < 0.6 * errors[1]
