@@ -72,5 +72,5 @@ def test_a_modal_body_swings_as_its_mode_and_falls_freely():
     free = ModalChain(1, 1.0, EI, 10.0, (0.0, 0.0, 0.0), modes=2, gravity=(0.0, -9.81))
     motion = ModalMotion(free, np.zeros((1, 5)), np.zeros((1, 5)))
     motion.A[0, 1] = -9.81
-    motion.advance(0.1, 1e-3, 1e-7)
-    assert motion.X[0, 1] == pytest.approx(-9.81 * 0.1**2 / 2, rel=1e-6)
+    motion.advance(0.04, 1e-3, 1e-7)
+    assert motion.X[0, 1] == pytest.approx(-9.81 * 0.04**2 / 2, rel=1e-6)

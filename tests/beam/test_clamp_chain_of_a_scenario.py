@@ -75,7 +75,7 @@ def test_bushings_and_links_are_counted_from_the_shearer(scenario):
     for name, bushing in found.items():
         if name.startswith("bushing"):  # odd numbers lie on the side of positive z
             z = side if int(name.split()[-1]) % 2 else -side
-            assert bushing.first_point[2] == bushing.second_point[2] == z
+            assert np.asarray(bushing.first_point, float)[2] == np.asarray(bushing.second_point, float)[2] == z
 
 
 def depth(surface, point, t=0.0):

@@ -16,7 +16,7 @@ from geometry.errors import ConvergenceError
 SHORT = {
     "cable__length": "6.4 m", "cable__elements": 40, "layout__upper_strand": "3.2 m", "layout__slack": "20 mm",
     "drive__speed": "0.4 m/s", "drive__ramp_start": "0 s", "drive__ramp_end": "0.4 s",
-    "time__duration": "1.2 s", "time__frame": "20 ms",
+    "time__duration": "1.2 s", "time__frame": "40 ms",
 }  # fmt: skip
 
 
@@ -115,7 +115,7 @@ def test_contacts_of_the_links_add_up_by_surface(run):
 def test_tensioner_stands_in_the_supply_reaction():
     """Cylinder with constant force in place of the fixed end: what holds cable and chain there is its force."""
     scenario = read_scenario("intelligent-horizontal").changed(
-        **SHORT | {"time__duration": "20 ms"}, drive__tensioner_force="200 N"
+        **SHORT | {"time__duration": "40 ms"}, drive__tensioner_force="200 N"
     )
     data = tow(scenario).dataset
     held = data["supply_reaction"].values[0, 0]
