@@ -31,6 +31,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beam.body_contact_state import body_contact_states
 from beam.body_step import body_step
 from beam.contact_state import ContactState, contact_states
 from beam.energy_ledger import EnergyLedger
@@ -38,6 +39,7 @@ from beam.free_roller import FreeRollers
 from beam.linear_solve import Factor
 from beam.newton_step import (
     CONVERGED,
+    NOT_CONVERGED,
     NOT_FINITE,
     TOTALS,
     ContactArrays,
@@ -61,6 +63,7 @@ logger = logging.getLogger(__name__)
 
 LEVELS = 14
 """The smallest step is h_max / 2^14."""
+TRY = "Try more damping or softer contacts there, or a slower motion."
 
 
 @dataclass(frozen=True)
@@ -170,6 +173,7 @@ class Integrator:
         self.error_sum = 0.0
         self._last_iterations = 0
         self._worst = ""
+        self._why = Status.NOT_CONVERGED
         self._ticks = 0
         self._level = self.settings.first_level if self.settings.adaptive else 0
         self._easy = 0
@@ -252,9 +256,10 @@ class Integrator:
 
     @property
     def contacts(self) -> list[ContactState]:
-        """Gap, normal force, friction and slip of every contact point, one entry for each surface."""
+        """Gap, normal force, friction and slip of every contact point, one entry for each surface, those that bodies touch last."""
         before = self.model.split(self._anchors_before)
-        return contact_states(self.model, self.t, self.q, self.v, before, self.rollers.turned)
+        own = contact_states(self.model, self.t, self.q, self.v, before, self.rollers.turned)
+        return own + body_contact_states(self.model, self.t, self.q, self.v, before)
 
     @property
     def reaction(self) -> Array:
@@ -296,6 +301,7 @@ class Integrator:
         error, node = self._own_error(h, beta) if forces is not None else (0.0, 0)
         if forces is None or error > one.error:
             if forces is not None:
+                self._why = Status.NOT_CONVERGED
                 self._worst = f"The error of a step is largest at {self.model.row_name(node)}, {error:.1e} m,"
             self._cut(size, h)
             return False
@@ -321,7 +327,8 @@ class Integrator:
         self._known, self._factor = False, None
         self._level = LEVELS - int(np.log2(size)) + 1
         if self._level > LEVELS:
-            self.outcome = Outcome(Status.NOT_CONVERGED, f"{self._worst} at t = {self.t:.4f} s, step {h:.1e} s.")
+            detail = f"{self._worst} at t = {self.t:.4f} s, step {h:.1e} s. {TRY}"
+            self.outcome = Outcome(self._why, detail)
 
     def _accept(self, t: float, size: int, forces: Forces) -> None:
         self._state, self._trial = self._trial, self._state
@@ -367,7 +374,7 @@ class Integrator:
         self.counters.factorisations += factored
         self._last_iterations = iterations
         if code != CONVERGED:
-            self._failed(code, t)
+            self._failed(code, t, iterations)
             return None
         elastic, damping, kinetic, power, potential = self._totals.tolist()
         parts.elastic, parts.potential, parts.damping_power = elastic, potential, damping
@@ -392,7 +399,7 @@ class Integrator:
             size = (1 - rule.af) * float(np.hypot(size, rollers.size(model, t, new, self.anchors)))
             self.counters.iterations += 1
             if not np.isfinite(size):
-                self._failed(NOT_FINITE, t)
+                self._failed(NOT_FINITE, t, k + 1)
                 return None
             start = size if k == 0 else start
             if size <= rule.relative * start + rule.absolute:
@@ -410,7 +417,7 @@ class Integrator:
             delta, turn = rollers.solve(self._factor.solve, self._R)
             correct(new, delta, rule)
             rollers.correct(turn, rule)
-        self._failed(-1, t)
+        self._failed(NOT_CONVERGED, t, rule.iterations)
         return None
 
     def _renew(self, t: float, rule: Rule) -> None:
@@ -456,15 +463,19 @@ class Integrator:
         i, k = model.held.T
         self._held_force = self._forces.F[i, k]
 
-    def _failed(self, code: int, t: float) -> None:
+    def _failed(self, code: int, t: float, iterations: int) -> None:
+        """Say what went wrong. Only a force that is no number before the first correction ends the run at once: no step mends that."""
         R = self._R
+        self._why = Status.NOT_FINITE if code == NOT_FINITE else Status.NOT_CONVERGED
         if code == NOT_FINITE:
             broken = np.argwhere(~np.isfinite(R))
             node = int(broken[0, 0]) if len(broken) else 0
-            detail = (
-                f"It appeared at {self.model.row_name(node)} in the step to t = {t:.4f} s; the state before it is kept."
-            )
-            self.outcome = Outcome(Status.NOT_FINITE, detail)
+            self._worst = f"It appeared at {self.model.row_name(node)} during the iteration,"
+            if iterations == 1:
+                where = f"It appeared at {self.model.row_name(node)} in the step to t = {t:.4f} s"
+                self.outcome = Outcome(
+                    self._why, f"{where}; the state before it is kept: check the inputs that act there."
+                )
             return
         node = int(np.argmax(np.abs(R[:, 0:3]).max(axis=1)))
         worst = float(np.abs(R[node, 0:3]).max())

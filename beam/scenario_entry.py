@@ -8,13 +8,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pydantic import BeforeValidator
+from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 from geometry.errors import SpecError
 from geometry.units import read_quantity
 
 STATUSES = ("published", "deduced", "assumed", "chosen")
 ENTRY_KEYS = ("value", "status", "source", "range")
+
+
+class Part(BaseModel):
+    """A table of a scenario file: entries by name, no others."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
 
 
 @dataclass(frozen=True)
@@ -60,7 +66,8 @@ def read_entry(raw: object, unit: str, low: float, high: float) -> Entry:
     value = read_quantity(raw["value"], unit, "value")
     bounds = _read_range(raw.get("range"), unit, status)
     if not low <= value <= high:
-        raise SpecError(f"{raw['value']} is outside what can be computed, {low:g} to {high:g} {unit}.")
+        named = "" if unit == "1" else f" {unit}"
+        raise SpecError(f"{raw['value']} is outside what can be computed, {low:g} to {high:g}{named}.")
     if bounds is not None and not bounds[0] <= value <= bounds[1]:
         raise SpecError(f"{raw['value']} lies outside its own range {raw['range'][0]} to {raw['range'][1]}.")
     return Entry(value, unit, str(raw["value"]), status, source, bounds)

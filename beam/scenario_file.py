@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import tomllib
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
@@ -80,8 +80,9 @@ def _keys(place: list[str]) -> list[str]:
     model: type[BaseModel] = Scenario
     for name in place:
         found = model.model_fields.get(name)
-        kind = found.annotation if found else None
-        if not (isinstance(kind, type) and issubclass(kind, BaseModel)):
+        kinds = [found.annotation, *get_args(found.annotation)] if found else []
+        parts = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)]
+        if not parts:
             return []
-        model = kind
+        model = parts[0]
     return [field.alias or name for name, field in model.model_fields.items()]

@@ -98,7 +98,6 @@ def equilibrium(
     turn_back(q, unused, unused, unused)
     anchors = model.fresh_anchors()
     h, count = settings.first_step, 0
-    outcome = Outcome(Status.NOT_CONVERGED, "The number of steps is used up.")
     forces_of = partial(model.forces, memory=memory, dt=duration)
     current = forces_of(t, q, rest, anchors, friction=False)
     previous = np.inf
@@ -124,6 +123,9 @@ def equilibrium(
         gain = settings.growth * (10.0 if used <= 3 else 1.0)
         h = min(h * gain, settings.largest_step)
         previous = force
+    else:
+        detail = f"The {settings.most_steps} steps are used up. {_where(model, current)}"
+        outcome = Outcome(Status.NOT_CONVERGED, detail)
     logger.info("statics: %d iterations, last residual %.2e N", count, previous)
     force, moment = _residual(model, current)
     current = forces_of(t, q, rest, anchors, friction=True)
@@ -131,6 +133,7 @@ def equilibrium(
     return Equilibrium(q, current.moved, current, force, moment, count, outcome, kept)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # a trial that runs away is dropped, see the end of the loop
 def _step(
     model: RodModel, forces_of: Callable[..., Forces], t: float, q: Array, anchors: list[Array], h: float,
     settings: StaticSettings,

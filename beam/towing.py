@@ -1,9 +1,6 @@
 """The towing run: a cable fixed at the supply, one bend round a roller that travels at half speed, pulled by the shearer.
 
-Global axes: x along the trough in the shearer's direction of travel, y normal to the trough, z across it. The cable starts
-at the supply at the origin, runs as lower strand towards -x, bends upwards round the trolley's roller and comes back as
-upper strand towards +x, on a deck that begins at the roller. An inclination tilts gravity: positive when the shearer
-goes uphill. The centre line is what touches the surfaces, so that y = 0 is half a diameter above the trough.
+The mechanical problem is built in :mod:`beam.towing_model`, one instant of the run is taken in :mod:`beam.towing_frame`.
 Nodes are counted from the shearer, as published; arc length s from the supply.
 """
 
@@ -17,82 +14,25 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from beam.ancf_cable import AncfCable
 from beam.checkpoint import write_checkpoint
 from beam.generalized_alpha import Integrator, StepSettings
-from beam.incline_formula import STANDARD_GRAVITY
-from beam.motion import SpeedRamp
 from beam.record_file import RecordFile
-from beam.rod import Rod
-from beam.rod_model import RodModel, Support
+from beam.rod_model import RodModel
 from beam.scenario import Scenario, published_section
-from beam.section_law import DampingTimes, SectionLaw
-from beam.shape import strands_and_arcs
+from beam.section_law import SectionLaw
 from beam.statics import equilibrium
 from beam.status import Outcome
-from beam.surface import ContactLaw, Cylinder, FreeTurn, Plane, Spin
 from beam.towing_frame import empty_dataset
+from beam.towing_model import mass_per_length, towing_model
 from beam.towing_restart import checkpoint_path, resumed_run
 from beam.towing_run import Frames, TowingRun, run_attributes
+from geometry.errors import ConvergenceError
 from homogenize.section_stiffness import SectionInertia, SectionStiffness
 
-Array = NDArray[np.float64]
 Progress = Callable[[float, str], None]
 
 logger = logging.getLogger(__name__)
-
-ELEMENTS: dict[str, type[Rod]] = {kind.name: kind for kind in (Rod, AncfCable)}
-
-
-def towing_model(
-    scenario: Scenario, section: SectionStiffness, inertia: SectionInertia, law: SectionLaw | None = None
-) -> RodModel:
-    """The mechanical problem of a scenario; `inertia` is the cable's, the clamps' mass is added here."""
-    cable, contact, layout = scenario.cable, scenario.contact, scenario.layout
-    with_clamps = SectionInertia(
-        inertia.mass_per_length + cable.clamp_mass_per_length.value, inertia.J_x, inertia.J_y, inertia.J_z
-    )
-    damping = DampingTimes(cable.damping_time_axial.value, cable.damping_time_bending.value)
-    rod = ELEMENTS[scenario.element].straight(cable.length.value, scenario.elements, section, with_clamps, damping)
-    R, lower = layout.bend_radius.value, scenario.lower_strand
-    pieces = [(lower, 0.0), (scenario.bend_length, -1.0 / R), (layout.upper_strand.value, 0.0)]
-    trough = ContactLaw(contact.stiffness.value, contact.friction.value, contact.damping_time.value)
-    grip = 0.0 if scenario.roller.friction is None else scenario.roller.friction.value
-    roller = ContactLaw(contact.roller_stiffness.value, grip, contact.damping_time.value)
-    deck_begin = (scenario.roller_start, R, -np.inf)
-    slope = layout.inclination.value
-    return RodModel(
-        rod,
-        strands_and_arcs(rod.s, pieces, angle=np.pi),
-        supports=[Support(0), Support(-1, travel=scenario.pull)],
-        gravity=(-STANDARD_GRAVITY * np.sin(slope), -STANDARD_GRAVITY * np.cos(slope), 0.0),
-        surfaces=[
-            Plane("trough", trough),
-            Plane("deck", trough, offset=2 * R, low=deck_begin, box_travel=scenario.trolley),
-            Cylinder(
-                "roller", roller, (scenario.roller_start, R, 0.0), R, scenario.trolley, turn=_roller_turn(scenario)
-            ),
-        ],
-        law=law,
-    )
-
-
-def _roller_turn(scenario: Scenario) -> Spin | FreeTurn | None:
-    roller, R, pull = scenario.roller, scenario.layout.bend_radius.value, scenario.pull
-    if roller.inertia is not None:
-        moment = roller.bearing_moment
-        return FreeTurn(roller.inertia.value, 0.0 if moment is None else moment.value)
-    if roller.surface_speed is None:
-        return None
-    ramp = SpeedRamp(-roller.surface_speed.value / R, pull.start, pull.end)
-
-    def turn(t: float) -> tuple[float, float, float]:
-        angle, speed, acceleration = (float(x[0]) for x in ramp(t))
-        return angle, speed, acceleration
-
-    return turn
 
 
 def tow(
@@ -152,7 +92,7 @@ def tow(
     model = towing_model(scenario, section, inertia, law)
     settings, per_frame, frames = _steps(scenario, settings)
     path = None if file is None else Path(file)
-    attributes = run_attributes(scenario, section, model.rod.mass_per_length)
+    attributes = run_attributes(scenario, section, mass_per_length(scenario, inertia))
     if resume:
         motion, record, residual = resumed_run(scenario, model, settings, path, attributes)
     else:
@@ -169,13 +109,14 @@ def tow(
         tell(k / frames, f"{motion.t:.2f} s of {scenario.time.duration.value:g} s")
     outcome: Outcome = motion.outcome
     if not outcome.completed:
+        outcome = replace(outcome, detail=f"{outcome.detail} {_play_hint(scenario)}".strip())
         logger.warning("%s", outcome)
     elif path is not None:
         checkpoint_path(path).unlink(missing_ok=True)
     run = TowingRun(
         scenario=scenario,
         section=section,
-        mass_per_length=model.rod.mass_per_length,
+        mass_per_length=mass_per_length(scenario, inertia),
         frames=record,
         outcome=outcome,
         counters=motion.counters,
@@ -202,7 +143,8 @@ def _started_run(
 ) -> tuple[Integrator, Frames, tuple[float, float]]:
     """Static start, first instant, residual of the equilibrium."""
     start = equilibrium(model)
-    start.outcome.require_success()
+    if not start.outcome.completed:
+        raise ConvergenceError(f"no equilibrium to start from: {start.outcome} {_play_hint(scenario)}".strip())
     residual = (start.residual_force, start.residual_moment)
     logger.info("static residual %.1e N, %.1e N m", *residual)
     motion = Integrator(model, start.q, anchors=start.anchors, settings=settings, memory=start.memory)
@@ -215,6 +157,14 @@ def _started_run(
     if path is not None:
         write_checkpoint(motion, checkpoint_path(path))
     return motion, record, residual
+
+
+def _play_hint(scenario: Scenario) -> str:
+    """What play in the pins does to a run that cannot start or go on; empty without it."""
+    if not scenario.has_clamps or scenario.clamps is None or scenario.clamps.pin_play.value == 0:
+        return ""
+    play = 1e3 * scenario.clamps.pin_play.value
+    return f"Pins with {play:g} mm of play make the chain a mechanism: try clamps.pin_play = 0 mm, or less of it."
 
 
 def _steps(scenario: Scenario, settings: StepSettings | None) -> tuple[StepSettings, int, int]:

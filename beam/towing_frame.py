@@ -11,20 +11,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beam.body_record import bushing_states
+from beam.clamp_record import CLAMP_VARIABLES, Variables, clamp_coordinates, clamp_frame, has_chain
+from beam.contact_state import ContactState
 from beam.energy_ledger import energy_names
 from beam.generalized_alpha import Integrator
 from beam.incline_formula import towing_force_down, towing_force_up
 from beam.rod import GAUSS_X
 from beam.rod_model import RodModel
 from beam.scenario import Scenario
-from beam.surface import FreeTurn
+from beam.surface import FreeTurn, Surface
 
 if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
 
-VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
+VARIABLES: Variables = {
     # name: (axes besides time, unit, long name)
     "position": (("node", "axis"), "m", "position of the centre line"),
     "tangent": (("node", "axis"), "1", "derivative of the position by arc length"),
@@ -78,8 +81,8 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
         "1",
         "share of contact_normal at points that slip: 0 sticks, 1 slips; NaN without contact",
     ),
-    "surface_gap": (("surface",), "m", "smallest gap of the surface; NaN if no cable is within its extent"),
-    "surface_force": (("surface", "axis"), "N", "force of the surface on the cable"),
+    "surface_gap": (("surface",), "m", "smallest gap of the surface; NaN if nothing is within its extent"),
+    "surface_force": (("surface", "axis"), "N", "force of the surface on cable or links"),
     "surface_normal": (("surface",), "N", "normal force of the surface, sum of magnitudes"),
     "surface_friction": (("surface",), "N", "friction of the surface, sum of magnitudes"),
     "surface_slip": (("surface",), "1", "share of surface_normal at points that slip; NaN without contact"),
@@ -87,7 +90,7 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "surface_spin": (("surface",), "rad/s", "its angular velocity"),
     "pull_force": (("axis",), "N", "force of the shearer on the cable's end"),
     "pull_moment": (("axis",), "N m", "moment of the shearer on the cable's end"),
-    "supply_reaction": (("axis",), "N", "force of the fixed support at the supply end"),
+    "supply_reaction": (("axis",), "N", "force of support and tensioner at the supply end"),
     "supply_moment": (("axis",), "N m", "moment of the fixed support at the supply end"),
     "bend_radius": ((), "m", "smallest bend radius of the centre line"),
     "bend_radius_at": ((), "m", "arc length from the supply where the bend radius is smallest"),
@@ -101,14 +104,15 @@ STRAINS = ("Gamma_1", "Gamma_2", "Gamma_3", "kappa_1", "kappa_2", "kappa_3")
 
 
 def frame(scenario: Scenario, motion: Integrator) -> dict[str, Any]:
-    """Values of ``time`` and all :data:`VARIABLES` at the present state of `motion`."""
-    q, forces, model = motion.q, motion.forces, motion.model
+    """Values of ``time`` and all :func:`variables` at the present state of `motion`."""
+    forces, model = motion.forces, motion.model
     rod = model.rod
+    q, reaction = motion.q[: rod.nodes], motion.reaction[: rod.nodes]
     theta, local, turned = rod.sections(q, forces.S)
     E = rod.strains(q)
     radius, where = _bend_radius(E + rod.E0, gauss_arc_length(model))
-    up, down = formula_forces(scenario, model.rod.mass_per_length, np.array([motion.t]))
-    reaction = motion.reaction
+    mass = rod.mass_per_length + (scenario.cable.clamp_mass_per_length.value if scenario.has_clamps else 0.0)
+    up, down = formula_forces(scenario, mass, np.array([motion.t]))
     first, last = (rod.moment(q[k], reaction[k]) for k in (0, -1))
     return {
         "time": motion.t,
@@ -123,11 +127,11 @@ def frame(scenario: Scenario, motion: Integrator) -> dict[str, Any]:
         "friction_force": forces.friction,
         "gauss_strain": E,
         "gauss_force": rod.in_section_axes(q, forces.S),
-        "friction_use": np.stack([cone.max(axis=1) for cone in forces.cones], axis=1),
         **_contacts(motion),
+        **(clamp_frame(motion) if has_chain(model) else {}),
         "pull_force": reaction[-1, 0:3],
         "pull_moment": last,
-        "supply_reaction": reaction[0, 0:3],
+        "supply_reaction": reaction[0, 0:3] + tensioner_force(motion),
         "supply_moment": first,
         "bend_radius": radius,
         "bend_radius_at": where,
@@ -139,14 +143,27 @@ def frame(scenario: Scenario, motion: Integrator) -> dict[str, Any]:
 
 
 def _contacts(motion: Integrator) -> dict[str, Array]:
-    """Gap, normal force, friction and slip, of elements and of surfaces."""
+    """Gap, normal force, friction and slip, of elements and of surfaces; of surfaces alone where links touch them."""
     states = motion.contacts
-    turned = surface_turns(motion)
+    return {**(_of_elements(motion, states) if motion.model.surfaces else {}), **_of_surfaces(motion, states)}
+
+
+def _of_elements(motion: Integrator, states: list[ContactState]) -> dict[str, Array]:
+    states = states[: len(motion.model.surfaces)]
     return {
+        "friction_use": np.stack([cone.max(axis=1) for cone in motion.forces.cones], axis=1),
         "contact_gap": np.stack([s.element_gap for s in states], axis=1),
         "contact_normal": np.stack([s.normal.sum(axis=1) for s in states], axis=1),
         "contact_friction": np.stack([s.friction.sum(axis=1) for s in states], axis=1),
         "contact_slip": np.stack([s.element_slip for s in states], axis=1),
+    }
+
+
+def _of_surfaces(motion: Integrator, states: list[ContactState]) -> dict[str, Array]:
+    if not states:
+        return {}
+    turned = surface_turns(motion)
+    return {
         "surface_gap": np.array([s.smallest_gap for s in states]),
         "surface_force": np.array([s.force.sum(axis=(0, 1)) for s in states]),
         "surface_normal": np.array([s.normal.sum() for s in states]),
@@ -160,13 +177,35 @@ def _contacts(motion: Integrator) -> dict[str, Array]:
 def surface_turns(motion: Integrator) -> Array:
     """Angle [rad] and angular velocity [rad/s] of every surface, zero for those that do not turn, (surfaces, 2)."""
     model = motion.model
-    out = np.zeros((len(model.surfaces), 2))
-    for k, surface in enumerate(model.surfaces):
+    surfaces = touched_surfaces(model)
+    out = np.zeros((len(surfaces), 2))
+    for k, surface in enumerate(surfaces):
         turn = getattr(surface, "turn", None)
         if turn is not None and not isinstance(turn, FreeTurn):
             out[k] = turn(motion.t)[:2]
     out[model.free_rollers] = motion.rollers.turned
     return out
+
+
+def touched_surfaces(model: RodModel) -> list[Surface]:
+    """Surfaces that the cable touches, then those that the links touch."""
+    return [*model.surfaces, *model.body_surfaces]
+
+
+def tensioner_force(motion: Integrator) -> Array:
+    """Force of the tensioner on the supply's end (3,) [N]; zero without one."""
+    model = motion.model
+    of_tensioner = [bushing.name.startswith("tensioner") for bushing in model.bushings]
+    if not any(of_tensioner):
+        return np.zeros(3)
+    return bushing_states(model, motion.t, motion.q, motion.v).force_global[of_tensioner].sum(axis=0)
+
+
+def variables(model: RodModel) -> Variables:
+    """What is recorded of `model`: of contacts only what can be touched, of the clamps if they are bodies."""
+    left_out = set() if model.surfaces else {"element"} if model.body_surfaces else {"surface"}
+    own = {k: x for k, x in VARIABLES.items() if "surface" not in x[0] or not left_out.intersection(x[0])}
+    return own | (CLAMP_VARIABLES if has_chain(model) else {})
 
 
 def empty_dataset(model: RodModel, attributes: dict[str, Any]) -> xarray.Dataset:
@@ -176,7 +215,7 @@ def empty_dataset(model: RodModel, attributes: dict[str, Any]) -> xarray.Dataset
     coords = _coordinates(model)
     sizes = {name: len(values) for name, (dims, values, _) in coords.items() if dims == (name,)}
     data = {}
-    for name, (dims, unit, meaning) in VARIABLES.items():
+    for name, (dims, unit, meaning) in variables(model).items():
         shape = (0, *(sizes[dim] for dim in dims))
         data[name] = (("time", *dims), np.zeros(shape), {"units": unit, "long_name": meaning})
     return xr.Dataset(data, coords, attributes)
@@ -207,6 +246,8 @@ def _bend_radius(E: Array, s: Array) -> tuple[float, float]:
 def _coordinates(model: RodModel) -> dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]:
     nodes, elements = model.rod.nodes, model.rod.lengths.size
     count = {"long_name": "node, counted from the shearer", "units": "1"}
+    touched = {"long_name": "what cable or links touch"}
+    surfaces = [surface.name for surface in touched_surfaces(model)]
     return {
         "time": (("time",), np.zeros(0), {"units": "s", "long_name": "time"}),
         "node": (("node",), np.arange(nodes - 1, -1, -1), count),
@@ -233,6 +274,7 @@ def _coordinates(model: RodModel) -> dict[str, tuple[tuple[str, ...], Any, dict[
             {"long_name": "axes of the section, 1 along the cable"},
         ),
         "strain": (("strain",), list(STRAINS), {"long_name": "stretch, two shears, twist, two curvatures"}),
-        "surface": (("surface",), [s.name for s in model.surfaces], {"long_name": "what the cable touches"}),
+        **({"surface": (("surface",), surfaces, touched)} if surfaces else {}),
+        **(clamp_coordinates(model) if has_chain(model) else {}),
         "source": (("source",), list(energy_names(model)), {"long_name": "where the energy is or went"}),
     }

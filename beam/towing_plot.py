@@ -62,9 +62,11 @@ def _draw_cable(
     xy = data["position"].values[k, :, :2]
     centre = scenario.roller_start + float(scenario.trolley(t)[0][0])
     ax.axhspan(-0.25, 0.0, color="#d9d9d9", zorder=0)
-    ax.fill_between([centre, 12.0], 2 * R - 0.05, 2 * R, color="#d9d9d9", zorder=0)
-    ax.add_patch(Circle((centre, R), R, facecolor="#eeeeee", edgecolor="#777777", linewidth=1, zorder=1))
-    ax.plot([centre], [R], "+", color="#777777")
+    deck = scenario.deck_height
+    ax.fill_between([centre, 12.0], deck - 0.05, deck, color="#d9d9d9", zorder=0)
+    if scenario.towing != "conventional":
+        ax.add_patch(Circle((centre, R), R, facecolor="#eeeeee", edgecolor="#777777", linewidth=1, zorder=1))
+        ax.plot([centre], [R], "+", color="#777777")
     segments = np.stack([xy[:-1], xy[1:]], axis=1)
     lines = LineCollection(list(segments), cmap="viridis", norm=Normalize(*limits), linewidths=3, zorder=3)
     lines.set_array(0.5 * (tension[:-1] + tension[1:]))
@@ -132,7 +134,19 @@ def energy_figure(run: TowingRun) -> Figure:
     energy = data["energy"].values - data["energy"].values[0]
     names = [str(name).replace("_", " ") for name in data["source"].values]
     figure, ax = plt.subplots(figsize=(8, 4.2), layout="constrained")
-    colours = ("#56B4E9", "#0072B2", "#999999", "#E69F00", "#F0E442", "#8856A7", "#CC79A7", "#D55E00", "#8C510A")
+    colours = (
+        "#56B4E9",
+        "#0072B2",
+        "#999999",
+        "#E69F00",
+        "#F0E442",
+        "#8856A7",
+        "#CC79A7",
+        "#D55E00",
+        "#8C510A",
+        "#01665E",
+        "#4D4D4D",
+    )
     for k, name in enumerate(names[:-1]):
         ax.plot(time, energy[:, k], label=name, color=colours[k], linewidth=1.5)
     ax.plot(time, energy[:, -1], label=names[-1], color="black", linewidth=1.8)

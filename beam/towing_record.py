@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from beam.bending_history import bending_history
+from beam.chain_record import SIMILARITY, chain_record, nearest_pin, similar
 from beam.section_stress import largest_normal_stress
 from geometry.errors import InputError
 
@@ -27,15 +29,8 @@ def towing_record(run: TowingRun) -> dict[str, Any]:
     """Numbers of a run with fixed keys; SI, finite, ``None`` where there is none, with the reason in ``notes``."""
     data = run.dataset
     time = data["time"].values
-    nodes = {}
-    for published in PUBLISHED_NODES:
-        force = data["force_global"].sel(node=run.node(published)).values
-        nodes[str(published)] = {
-            "Fx_plateau": _plateau(time, force[:, 0]),
-            "Fy_plateau": _plateau(time, force[:, 1]),
-            "Fx_max": _largest(force[:, 0]),
-            "Fy_max": _largest(force[:, 1]),
-        }
+    nodes = {str(number): node_record(data, run.node(number)) for number in PUBLISHED_NODES}
+    chain = chain_record(data)
     up, down = run.formula_forces()
     energy = data["energy"].values
     entries = run.scenario.entries()
@@ -48,10 +43,13 @@ def towing_record(run: TowingRun) -> dict[str, Any]:
         "seconds_wall": run.seconds_wall,
         "elements": run.scenario.elements,
         "element": run.scenario.element,
+        "towing": run.scenario.towing,
+        "chain": "clamps" if run.scenario.has_clamps else "smeared",
         "constants": run.scenario.constants,
         "peak_tension": float(data["force_local"].values[:, :, 0].max()),
         "bend_radius_min": float(data["bend_radius"].values.min()),
         "normal_stress_max": _largest_stress(run),
+        "bending": bending_record(data),
         "pull_force_plateau": _plateau(time, data["pull_force"].values[:, 0]),
         "pull_force_max": _largest(data["pull_force"].values[:, 0]),
         "formula_22_peak": float(up.max()),
@@ -62,8 +60,13 @@ def towing_record(run: TowingRun) -> dict[str, Any]:
         "deepest_penetration": run.deepest_penetration[0],
         "contacts": contact_record(data),
         "nodes": nodes,
-        "bushing_3_amplitude": None,
-        "contact_35": None,
+        **chain,
+        "similarity": {
+            "scale": SIMILARITY,
+            "node_54_Fx_plateau": similar(nodes["54"]["Fx_plateau"]),
+            "pull_force_plateau": similar(_plateau(time, data["pull_force"].values[:, 0])),
+            "bushing_3_pair": similar(chain["bushing_3_amplitude"], bushings=2),
+        },
         "lateral_displacement_max": float(np.abs(data["position"].values[:, :, 2]).max()),
         "published": published,
         "assumed": {key: entry.text for key, entry in entries.items() if entry.status == "assumed"},
@@ -71,10 +74,38 @@ def towing_record(run: TowingRun) -> dict[str, Any]:
     }
 
 
+def bending_record(data: xarray.Dataset) -> dict[str, float]:
+    """Sections that were bent, most bends of one, its place; largest range of the curvature and its place."""
+    history = bending_history(data)
+    most, widest = int(history.bends.argmax()), int(history.range.argmax())
+    return {
+        "sections_bent": int((history.bends > 0).sum()),
+        "bends_max": int(history.bends[most]),
+        "bends_max_at": float(history.s[most]),
+        "curvature_range_max": float(history.range[widest]),
+        "curvature_range_max_at": float(history.s[widest]),
+    }
+
+
+def node_record(data: xarray.Dataset, node: int) -> dict[str, float]:
+    """Forces at a node of the dataset, means after 6 s and values of largest size, and how far it moved; with clamps, the chain's force
+    at the nearest pin."""
+    time, force = data["time"].values, data["force_global"].sel(node=node).values
+    place = data["position"].sel(node=node).values
+    out = {f"F{axis}_plateau": _plateau(time, force[:, k]) for k, axis in enumerate("xyz")}
+    out |= {f"F{axis}_max": _largest(force[:, k]) for k, axis in enumerate("xyz")}
+    out["displacement_max"] = float(np.linalg.norm(place - place[0], axis=1).max())
+    out["lateral_displacement_max"] = float(np.abs(place[:, 2]).max())
+    if "pin" in data.dims:
+        chain = data["chain_force"].sel(pin=nearest_pin(data, node)).values
+        out |= {f"chain_F{axis}_plateau": _plateau(time, chain[:, k]) for k, axis in enumerate("xy")}
+    return out
+
+
 def contact_record(data: xarray.Dataset) -> dict[str, dict[str, float | None]]:
     """By surface: smallest gap, largest and last normal force and friction, share that slips at the end, turning."""
     out = {}
-    for name in map(str, data["surface"].values):
+    for name in map(str, data["surface"].values if "surface" in data.dims else ()):
         one = {key: data[f"surface_{key}"].sel(surface=name).values for key in SURFACE_COLUMNS}
         gaps = one["gap"][np.isfinite(one["gap"])]
         slip = float(one["slip"][-1])
@@ -103,7 +134,7 @@ def write_contact_table(data: xarray.Dataset, path: str | Path) -> Path:
         If the file cannot be written.
     """
     path = Path(path)
-    surfaces = [str(name) for name in data["surface"].values]
+    surfaces = [str(name) for name in data["surface"].values] if "surface" in data.dims else []
     head = ["time [s]", *(f"{name} {key} [{unit}]" for name in surfaces for key, unit in SURFACE_COLUMNS.items())]
     columns = [data["time"].values]
     columns += [data[f"surface_{key}"].sel(surface=name).values for name in surfaces for key in SURFACE_COLUMNS]
@@ -118,9 +149,9 @@ def write_contact_table(data: xarray.Dataset, path: str | Path) -> Path:
 
 
 def _notes(run: TowingRun) -> list[str]:
+    clamps = run.scenario.has_clamps
     notes = [
-        "bushing_3_amplitude is null: clamps enter as mass only, there are no bushings yet.",
-        "contact_35 is null: clamps enter as mass only, there is no clamp-cable contact yet.",
+        *(CHAIN_NOTES if clamps else SMEARED_NOTES),
         _lateral_note(run),
         "Forces at a node are what the shearer's side exerts on the supply's side; x is the direction of travel.",
         "The tension at rest depends on layout.slack (not published): a bend wants to open, and a taut stiff cable holds it.",
@@ -131,10 +162,24 @@ def _notes(run: TowingRun) -> list[str]:
     return notes
 
 
+CHAIN_NOTES = (
+    "Forces at a node are the cable's alone; chain_Fx_plateau is what the clamp chain carries beside it.",
+    "Links, pins and bushings are counted from the shearer, two bushings a pin; the source's numbering is not open.",
+    "contacts are those of the links, which keep the cable off trough, deck, walls and roller; link by link: clamp_contact_force.",
+)
+SMEARED_NOTES = (
+    "bushing_3_amplitude is null: the clamps are mass on the cable here, there are no bushings.",
+    "contact_35 is null: the clamps are mass on the cable here, there is no clamp-cable contact.",
+    "bushing_3_pair is null for the same reason.",
+)
+
+
 def _lateral_note(run: TowingRun) -> str:
     if np.abs(run.dataset["position"].values[:, :, 2]).max() < 1e-6:
         return "The run is plane: nothing disturbs it sideways, the lateral displacement is round-off."
-    return "The section's coupling of stretch and twist moves the cable sideways; there are no trough walls yet."
+    if run.scenario.disturbance is not None:
+        return "The cable is not quite straight (disturbance.amplitude), which moves it sideways."
+    return "The section's coupling of stretch and twist moves the cable sideways."
 
 
 def _largest_stress(run: TowingRun) -> float:

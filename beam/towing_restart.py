@@ -78,9 +78,10 @@ def _require_same(file: Path, found: dict[str, Any], wanted: dict[str, Any]) -> 
             f"{file} is a run with {key} = {there.get(key, 'missing')}, not {here[key]}: "
             f"resume it with its own scenario, or write to another place."
         )
-    if found.get("element") != wanted.get("element"):
-        raise InputError(
-            f"{file} is a run with the element {found.get('element')}, not {wanted.get('element')}: resume it with its own."
-        )
+    for what in ("element", "towing", "chain"):
+        if found.get(what) != wanted.get(what):
+            raise InputError(
+                f"{file} is a run with the {what} {found.get(what)}, not {wanted.get(what)}: resume it with its own."
+            )
     if not np.array_equal(np.ravel(found["section_stiffness"]), np.ravel(wanted["section_stiffness"])):
         raise InputError(f"{file} is a run with another section stiffness: resume it with its own constants.")

@@ -73,6 +73,8 @@ def run_attributes(scenario: Scenario, section: SectionStiffness, mass_per_lengt
         "status": fixed_length("not finished: it is running, or was ended from outside"),
         "elements": scenario.elements,
         "element": scenario.element,
+        "towing": scenario.towing,
+        "chain": "clamps" if scenario.has_clamps else "smeared",
         "diameter_m": scenario.cable.diameter.value,
         "mass_per_length_kg_per_m": mass_per_length,
         "section_stiffness_order": "gamma_x, gamma_y, epsilon, kappa_x, kappa_y, tau",

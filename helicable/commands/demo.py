@@ -63,9 +63,9 @@ def demo(
     show_constants(result)
     with progress("3D periodic slice, as a check") as tell:
         slice_result = slice_stiffness(made, size=SLICE_SIZE, slices_per_pitch=SLICES_PER_PITCH, progress=tell)
-    run, used = towing_run(SCENARIO, "published", cable)
+    run, used = towing_run(SCENARIO, "published", cable, chain="smeared")
     show_run(run, used)
-    stiff, stiff_used = towing_run(SCENARIO, "cell", cable, result.section)
+    stiff, stiff_used = towing_run(SCENARIO, "cell", cable, result.section, chain="smeared")
     show_run(stiff, stiff_used)
     run.write(out / "run.nc")
     pictures = draw_run(run, out)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -33,6 +33,10 @@ def sweep(
         str | None, typer.Option(metavar="ADDRESS", help="Scheduler of a cluster, such as tcp://node1:8786.")
     ] = None,
     cable: Annotated[str, typer.Option(metavar="CABLE", help="Cable that `cell` homogenizes.")] = REFERENCE_CABLE,
+    chain: Annotated[
+        Literal["clamps", "smeared"] | None,
+        typer.Option(help="`clamps`: a chain of bodies; `smeared`: mass on the cable, faster."),
+    ] = None,
     full: Annotated[bool, typer.Option("--full", help="Keep every run as NetCDF, too (runs/ID.nc).")] = False,
     json: JsonOption = None,
     out: Annotated[
@@ -44,6 +48,8 @@ def sweep(
     Example: `helicable sweep intelligent-horizontal --over inclination="0,10,20 deg" --over friction="0.2,0.3" --workers 2 --out sweep`
     """
     base = read_scenario(scenario)
+    if chain is not None:
+        base = base.changed(chain=chain)
     if not over:
         raise SpecError(
             f'a sweep needs --over NAME=VALUES, such as --over friction="0.2,0.3". What can be swept: {", ".join(sweepable(base))}.'

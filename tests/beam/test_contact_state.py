@@ -20,6 +20,7 @@ from geometry.errors import InputError
 @pytest.fixture(scope="module")
 def short_run():
     scenario = read_scenario("intelligent-horizontal").changed(
+        chain="smeared",
         cable__length="4 m", cable__elements=24, layout__upper_strand="1.4 m", layout__slack="20 mm", time__duration="0.4 s",
         drive__ramp_start="0 s", drive__ramp_end="0.3 s",
     )  # fmt: skip

@@ -5,6 +5,7 @@ import pytest
 
 from beam import Status, read_scenario, tow
 from beam.generalized_alpha import Integrator, StepSettings
+from beam.newton_step import NOT_FINITE, newton_step
 from beam.rod import Rod
 from beam.rod_model import RodModel, Support
 from beam.shape import straight
@@ -44,6 +45,27 @@ def test_nan_in_a_motion_stops_at_once_and_keeps_the_state():
     assert np.isfinite(motion.q).all()
 
 
+@pytest.mark.parametrize("mended", [True, False])
+def test_nan_within_an_iteration_is_a_step_too_large(monkeypatch, mended):
+    """A correction throws the rod too far, a force is NaN: shorter steps go on; where none helps, the sentence says where and when."""
+    model = RodModel(ROD, straight(ROD.s), [Support(0)], gravity=(0.0, -1.0, 0.0))
+    motion = Integrator(model, model.q0, settings=StepSettings(1e-2, adaptive=False))
+
+    def step(*given):
+        if mended and given[9].h < 3e-3:
+            return newton_step(*given)
+        given[12][6, 1] = np.nan
+        return NOT_FINITE, 3, 1, False
+
+    monkeypatch.setattr("beam.generalized_alpha.newton_step", step)
+    assert motion.advance(1) is mended
+    assert np.isfinite(motion.q).all() and motion.counters.cuts >= 2
+    if not mended:
+        assert motion.outcome.status is Status.NOT_FINITE
+        assert "node 6" in motion.outcome.detail and "at t = 0.0000 s" in motion.outcome.detail
+        assert "Try" in motion.outcome.detail
+
+
 def test_step_that_does_not_converge_is_cut_never_accepted():
     """An impossible tolerance: cuts to the smallest step, then stops; time has not advanced."""
     model = RodModel(ROD, straight(ROD.s), [Support(0)], gravity=(0.0, -9.81, 0.0))
@@ -67,7 +89,9 @@ def test_a_cut_names_the_contact_also_without_friction():
 
 def test_stopped_towing_run_keeps_its_frames():
     """The partial run is a run: dataset, record and the sentence."""
-    scenario = read_scenario("intelligent-horizontal").changed(cable__elements=100, time__duration="1 s")
+    scenario = read_scenario("intelligent-horizontal").changed(
+        chain="smeared", cable__elements=100, time__duration="1 s"
+    )
     run = tow(scenario, settings=StepSettings(5e-3, relative=0.0, absolute=0.0, iterations=2))
     assert not run.outcome.completed
     assert run.dataset.sizes["time"] >= 1

@@ -22,6 +22,7 @@ from geometry.errors import InputError, SpecError
 from homogenize.section_stiffness import SectionStiffness
 
 SHORT = {
+    "chain": "smeared",
     "cable__length": "4 m", "cable__elements": 24, "layout__upper_strand": "1.4 m", "layout__slack": "20 mm",
     "time__duration": "0.2 s", "time__frame": "20 ms", "drive__ramp_start": "0 s", "drive__ramp_end": "0.15 s",
 }  # fmt: skip

@@ -33,7 +33,7 @@ SHORT = {
 
 def test_rollers_of_a_scenario():
     """The trolley's roller: turned by the cable at half the shearer's speed; driven; a drum that holds the cable back."""
-    base = read_scenario("intelligent-horizontal").changed(**SHORT, roller__friction="0.2")
+    base = read_scenario("intelligent-horizontal").changed(chain="smeared", **SHORT, roller__friction="0.2")
     free = tow(base.changed(roller__inertia="0.05 kg m^2", roller__bearing_moment="1 N m"))
     assert free.outcome.completed and abs(free.balance_error) < 1e-4
     spin = free.dataset["surface_spin"].sel(surface="roller").values[-4:].mean()

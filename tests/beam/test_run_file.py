@@ -16,6 +16,7 @@ from beam.record_file import RecordFile
 from geometry.errors import InputError
 
 SHORT = {
+    "chain": "smeared",
     "cable__length": "4 m", "cable__elements": 24, "layout__upper_strand": "1.4 m", "layout__slack": "20 mm",
     "time__duration": "0.4 s", "time__frame": "10 ms", "drive__ramp_start": "0 s", "drive__ramp_end": "0.3 s",
 }  # fmt: skip

@@ -21,10 +21,10 @@ def written(tmp_path, text: str) -> str:
     return str(path)
 
 
-def source_text() -> str:
+def source_text(name: str = NAME) -> str:
     from beam import scenario_file
 
-    return (scenario_file._folder() / f"{NAME}.toml").read_text()
+    return (scenario_file._folder() / f"{name}.toml").read_text()
 
 
 def test_built_in_scenario_is_found(scenario):
@@ -36,9 +36,10 @@ def test_built_in_scenario_is_found(scenario):
     assert scenario.constants == "published"
 
 
-def test_every_number_has_status_and_source(scenario):
+@pytest.mark.parametrize("name", builtin_scenarios())
+def test_every_number_has_status_and_source(name):
     """Status published, deduced or assumed; assumed entries have the range to sweep, which holds the value."""
-    entries = scenario.entries()
+    entries = read_scenario(name).entries()
     assert len(entries) > 20
     for key, entry in entries.items():
         assert entry.status in ("published", "deduced", "assumed"), key
@@ -47,9 +48,10 @@ def test_every_number_has_status_and_source(scenario):
             assert entry.range is not None and entry.range[0] <= entry.value <= entry.range[1], key
 
 
-def test_no_number_outside_an_entry():
+@pytest.mark.parametrize("name", builtin_scenarios())
+def test_no_number_outside_an_entry(name):
     """Besides the schema, the file holds no bare number."""
-    raw = tomllib.loads(source_text())
+    raw = tomllib.loads(source_text(name))
     bare = [key for key, value in raw.items() if isinstance(value, (int, float)) and key != "schema"]
     assert bare == []
 

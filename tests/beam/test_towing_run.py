@@ -12,7 +12,7 @@ from geometry.errors import InputError
 @pytest.fixture(scope="module")
 def run():
     scenario = read_scenario("intelligent-horizontal").changed(
-        cable__elements=100, time__duration="3 s", drive__ramp_end="1.5 s"
+        chain="smeared", cable__elements=100, time__duration="3 s", drive__ramp_end="1.5 s"
     )
     told: list[float] = []
     result = tow(scenario, progress=lambda fraction, sentence: told.append(fraction))

@@ -280,7 +280,7 @@ def test_neutral_effects_leave_the_rod_linear():
 def test_towing_with_friction_between_the_layers():
     """The bend travels through the cable and every section slips twice: more pull, and the balance is closed to 1e-5."""
     scenario = read_scenario("intelligent-horizontal").changed(
-        cable__elements=88, time__duration="3 s", drive__ramp_end="1.5 s"
+        chain="smeared", cable__elements=88, time__duration="3 s", drive__ramp_end="1.5 s"
     )
     section = published_section(scenario)
     law = RodLaw(section, [active("interlayer-friction", "bending", (0.5, 0.7), (2.0,), typical_tension=500.0)])
