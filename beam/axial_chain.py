@@ -21,6 +21,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +32,7 @@ from geometry.errors import ConvergenceError, InputError
 Array = NDArray[np.float64]
 GRAVITY = 9.81
 STEPS_A_PERIOD = 48
+_STEPS_A_RIPPLE = 12
 
 
 @dataclass(frozen=True)
@@ -149,18 +151,25 @@ class AxialChain:
         ConvergenceError
             If a step finds no balance.
         """
+        substeps = substeps or self.substeps(np.asarray(time, dtype=float))
+        t, motion = led_motion(time, position, substeps)
+        return self.led(t, motion, substeps, stations)
+
+    def substeps(self, time: Array, shortest: float = math.inf) -> int:
+        """Steps between two samples, so that the first mode has 48 in its period and a drive 12 in its `shortest` [s]."""
+        step = min(2 * math.pi / self.first_frequency / STEPS_A_PERIOD, shortest / _STEPS_A_RIPPLE)
+        return max(1, math.ceil(float(np.median(np.diff(time))) / step))
+
+    def led(self, t: Array, motion: Array, substeps: int, stations: Sequence[float] = ()) -> AxialRun:
+        """The same for position, speed and acceleration (m, 3) at every step, of which every `substeps`-th is read."""
         h = self.length / self.elements
         outside = [s for s in stations if not 0 <= s <= self.length]
         if outside:
             raise InputError(f"the station {outside[0]:g} m lies outside the cable, which is {self.length:g} m long.")
-        if substeps is None:
-            period = 2 * math.pi / self.first_frequency
-            substeps = max(1, math.ceil(float(np.median(np.diff(time))) / period * STEPS_A_PERIOD))
-        t, motion = led_motion(time, position, substeps)
-        M = self.nodal_masses()
-        out, energies = np.empty((len(time), self.elements + 1)), np.zeros((len(time), 6))
+        M, n = self.nodal_masses(), (len(t) - 1) // substeps + 1
+        out, energies = np.empty((n, self.elements + 1)), np.zeros((n, 6))
         stuck = _kernel(
-            t, motion, substeps, M, self.EA / h, self.damping_time, M * GRAVITY * math.cos(self.inclination),
+            np.array(t), np.array(motion), substeps, M, self.EA / h, self.damping_time, M * GRAVITY * math.cos(self.inclination),
             np.array([self.friction, self.fall, self.fall_speed, self.fall_power, self.presliding]),
             self.drag * h, out, energies,
         )  # fmt: skip
@@ -170,7 +179,7 @@ class AxialChain:
                 "falls too steeply with speed."
             )
         at = [_read(s, h, out) + float(self.rest_tension(s)) for s in (0.0, *stations)]
-        return AxialRun(np.asarray(time, dtype=float), at[0], tuple(at[1:]), Energies(*energies.T))
+        return AxialRun(t[::substeps], at[0], tuple(at[1:]), Energies(*energies.T))
 
 
 @dataclass(frozen=True)
@@ -202,15 +211,24 @@ class AxialRun:
 
 def led_motion(time: Array, position: Array, substeps: int) -> tuple[Array, Array]:
     """Instants (m,) and position, speed, acceleration (m, 3) of the towed end, `substeps` between two samples."""
-    from scipy.interpolate import CubicSpline
-
-    time = np.asarray(time, dtype=float)
-    parts = np.arange(substeps) / substeps
-    t = np.append((time[:-1, None] + np.diff(time)[:, None] * parts).ravel(), time[-1])
     if len(time) < 3:
         raise InputError("axial chain: a motion takes at least 3 samples.")
-    spline = CubicSpline(time, np.asarray(position, dtype=float) - position[0], bc_type=((1, 0.0), (2, 0.0)))
-    return t, np.column_stack([spline(t), spline(t, 1), spline(t, 2)])
+    told = np.asarray(time, dtype=float).tobytes(), np.asarray(position, dtype=float).tobytes()
+    return _led_motion(*told, substeps)
+
+
+@lru_cache(maxsize=128)
+def _led_motion(time_bytes: bytes, position_bytes: bytes, substeps: int) -> tuple[Array, Array]:
+    from scipy.interpolate import CubicSpline
+
+    time, position = np.frombuffer(time_bytes), np.frombuffer(position_bytes)
+    parts = np.arange(substeps) / substeps
+    t = np.append((time[:-1, None] + np.diff(time)[:, None] * parts).ravel(), time[-1])
+    spline = CubicSpline(time, position - position[0], bc_type=((1, 0.0), (2, 0.0)))
+    motion = np.column_stack([spline(t), spline(t, 1), spline(t, 2)])
+    t.setflags(write=False)
+    motion.setflags(write=False)
+    return t, motion
 
 
 def _read(s: float, h: float, out: Array) -> Array:
@@ -252,7 +270,7 @@ def _kernel(
             dt = t[i] - t[i - 1]
             kk = k * (1.0 + 2.0 * beta / dt)
             for j in range(1, n):
-                u1[j] = u[j] + dt * v[j]
+                u1[j] = u[j] + dt * v[j] + 0.5 * dt**2 * a[j]
             u1[0] = motion[i, 0]
             settled = False
             for round_ in range(60):
@@ -299,7 +317,7 @@ def _kernel(
                     step = (right[j] + kk * step) / diagonal[j] if j < n - 1 else right[j] / diagonal[j]
                     u1[j] += damp * step
                     largest = max(largest, abs(step))
-                if largest < 1e-9 * travel + 1e-14 * abs(u1[0]):
+                if largest < 1e-6 * travel + 1e-14 * abs(u1[0]):
                     settled = True
                     break
             if not settled:

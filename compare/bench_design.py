@@ -215,6 +215,11 @@ def make_blocks(experiments: Sequence[Experiment], model: BenchModel, noise: Noi
     blocks = []
     for kind in dict.fromkeys(e.kind for e in experiments):
         members = [e for e in experiments if e.kind == kind]
+        if kind == "towing":
+            from compare.towing_design import towing_block
+
+            blocks.append(towing_block(members, model, noise))
+            continue
         base = tuple(p.name for p in model.free_parameters(members))
         records = tuple(BenchRecord(e, paths[e.id], _readings(e, base, model, noise, paths[e.id])) for e in members)
         blocks.append(Block(kind, base, records, repeat_groups(members)))

@@ -25,6 +25,7 @@ from compare.next_experiment import separating_experiment
 from compare.rivals import TIE, tied
 from compare.search import Attempt, Progress, Stage
 from compare.section_finding import section_findings, with_expectations
+from compare.towing_setup import modelled
 from compare.testability import testability, worth_trying
 from compare.thinning import thinned
 from compare.validation import set_error
@@ -72,13 +73,13 @@ def explain(
     begin = time.perf_counter()
     tell = progress or (lambda _fraction, _sentence: None)
     effects = tuple(library) if library is not None else whole_library()
-    closed, notes = thinned(_closed(campaign))
+    closed, notes = thinned(_closed(modelled(campaign)[0]) if model.towing else _closed(campaign))
     tell(0.0, "learning the noise, calibrating the linear stiffness")
     before = compare(model.linear, closed)
     bench = [e for e in closed.of_set("calibrate") if model.covers(e)]
     if not bench:
         raise InputError(
-            "no open bench experiment (tension, torsion, bending, shear) is in the set calibrate: nothing can be learnt."
+            "no open experiment that the model covers is in the set calibrate: nothing can be learnt."
         )
     blocks = make_blocks(bench, before.model, before.noise)
     tell(0.1, "asking what these experiments can tell apart")
@@ -121,7 +122,7 @@ def open_and_validate(findings: Findings, campaign: Campaign) -> Findings:
     campaign : Campaign
         As it was read.
     """
-    opened, _ = thinned(campaign.open_sealed())
+    opened, _ = thinned(modelled(campaign.open_sealed())[0])
     before = compare_calibrated(findings.comparison, opened)
     after = before if findings.after is findings.comparison else compare_calibrated(findings.after, opened)
     error = set_error(before, after, "sealed", _baselines(before, "sealed") if after is not before else None)
