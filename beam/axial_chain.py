@@ -213,6 +213,9 @@ def led_motion(time: Array, position: Array, substeps: int) -> tuple[Array, Arra
     """Instants (m,) and position, speed, acceleration (m, 3) of the towed end, `substeps` between two samples."""
     if len(time) < 3:
         raise InputError("axial chain: a motion takes at least 3 samples.")
+    bad = np.flatnonzero(~(np.isfinite(time) & np.isfinite(position)))
+    if bad.size:
+        raise InputError(f"axial chain: time or position is not finite at sample {bad[0] + 1}.")
     told = np.asarray(time, dtype=float).tobytes(), np.asarray(position, dtype=float).tobytes()
     return _led_motion(*told, substeps)
 
@@ -258,7 +261,7 @@ def _kernel(
     n = len(M)
     u, v, a, f = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
     u1, v1, a1, f1 = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
-    diagonal, right, slope = np.zeros(n), np.zeros(n), np.zeros(n)
+    diagonal, right, slope, last = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
     share = np.ones(n)
     share[0] = 0.5
     share[n - 1] = 0.5
@@ -315,13 +318,19 @@ def _kernel(
                 largest, step = 0.0, 0.0
                 for j in range(n - 1, 0, -1):
                     step = (right[j] + kk * step) / diagonal[j] if j < n - 1 else right[j] / diagonal[j]
-                    u1[j] += damp * step
+                    last[j] = damp * step
+                    u1[j] += last[j]
                     largest = max(largest, abs(step))
                 if largest < 1e-6 * travel + 1e-14 * abs(u1[0]):
                     settled = True
                     break
             if not settled:
                 return i
+            for j in range(1, n):  # the last step, carried into all that follows from it
+                moved = last[j]
+                v1[j] += 2.0 / dt * moved
+                a1[j] += 4.0 / dt**2 * moved
+                f1[j] += slope[j] * moved
             inner = 0.0
             for j in range(1, n):
                 rate = v1[j] - v1[j - 1]

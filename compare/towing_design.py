@@ -36,6 +36,8 @@ Array = NDArray[np.float64]
 Terms = tuple[ActiveEffect, ...]
 _SLOPE = 0.02  # step of the friction ratio
 _WORTH_A_RUN = 8.0  # fall of the square residual below which a column is not corrected
+_MOST_ROUNDS = 5
+_CLOSE = 0.3  # square residual by which a linear column may be off the run
 _KEPT = 20_000
 _LOWEST = 0.02  # of the friction ratio
 _FAR = 5.0  # times the largest plausible strength
@@ -170,12 +172,10 @@ class TowingResponse:
     def _corrected(self, record: TowingRecord, chain: Terms, sensors: Terms) -> list[Array]:
         if not chain:
             return [J[:, None] for J in self.base(record.experiment)[1]]
-        first = self._first(record, chain, sensors)
-        found = self._first_fit(chain, sensors)
-        k = len(chain[-1].form.strength)
-        if found is None or (k and not found.x[-k:].any()):
-            return first
-        return self._updated(record, chain, first, found.x)
+        Z = self._first(record, chain, sensors)
+        for x in self._visited(chain, sensors):
+            Z = self._updated(record, chain, Z, x)
+        return Z
 
     def _updated(self, record: TowingRecord, chain: Terms, Z: Sequence[Array], x: Array) -> list[Array]:
         """Broyden's update of the columns of the last term, or of the base for a drive, by the run at x."""
@@ -212,16 +212,30 @@ class TowingResponse:
                 part.append(((b - a) / probe[k])[:, None])
         return [np.hstack(part) for part in parts]
 
-    def _first_fit(self, chain: Terms, sensors: Terms) -> _Fit | None:
-        """The fit with the first columns; None where they explain too little to be worth another run."""
-        key = ("first fit", *(_key(t) for t in chain), "|", *(_key(t) for t in sensors))
+    def _visited(self, chain: Terms, sensors: Terms) -> list[Array]:
+        """The coefficients at which the records are run to correct the columns, none where these explain too little."""
+        key = ("visited", *(_key(t) for t in chain), "|", *(_key(t) for t in sensors))
+        return self._keep(key, lambda: self._visit(chain, sensors))
 
-        def fit() -> _Fit | None:
-            found = self._fit([self._first(r, chain, sensors) for r in self.block], chain, sensors)
-            fall = self._working(chain[:-1], sensors).square - found.square
-            return found if fall > _WORTH_A_RUN else None
-
-        return self._keep(key, fit)
+    def _visit(self, chain: Terms, sensors: Terms) -> list[Array]:
+        Z = [self._first(r, chain, sensors) for r in self.block]
+        k, visited = len(chain[-1].form.strength), []
+        found = self._fit(Z, chain, sensors)
+        if self._working(chain[:-1], sensors).square - found.square < _WORTH_A_RUN:
+            return []
+        while len(visited) < _MOST_ROUNDS and (not k or found.x[-k:].any()):
+            visited.append(found.x)
+            new = [self._updated(r, chain, z, found.x) for r, z in zip(self.block, Z, strict=True)]
+            missed = sum(
+                float(np.sum(reading.whiten((a - b) @ found.x[:, None]) ** 2))
+                for r, zs, olds in zip(self.block, new, Z, strict=True)
+                for reading, a, b in zip(r.readings, zs, olds, strict=True)
+            )
+            Z = new
+            if missed < _CLOSE:
+                break
+            found = self._fit(Z, chain, sensors)
+        return visited
 
     def _working(self, chain: Terms, sensors: Terms) -> _Fit:
         """Coefficients of base and chain terms at which the columns are fitted to the block."""

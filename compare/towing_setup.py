@@ -40,6 +40,7 @@ class TowingSetup:
     inclination: float | None = None
     damping_ratio: float = DAMPING_RATIO
     presliding: float = PRESLIDING
+    elements: int = 32
     notes: tuple[str, ...] = ()
 
     @classmethod
@@ -70,7 +71,7 @@ class TowingSetup:
         return cls(
             table["friction_coefficient"], table["cable_length"], float(values["EA"] or 0), float(values["mass_per_length"] or 0),
             table.get("tail_tension"), table.get("inclination"), table.get("damping_ratio", DAMPING_RATIO),
-            table.get("presliding", PRESLIDING) or 1e-6, tuple(notes),
+            table.get("presliding", PRESLIDING) or 1e-6, notes=tuple(notes),
         )  # fmt: skip
 
     def cable(self, experiment: Experiment, friction: float) -> TowedCable:
@@ -84,12 +85,17 @@ class TowingSetup:
         given, record = experiment.conditions, experiment.record
         tail, slope = given.get("tail tension", self.tail_tension), given.get("inclination", self.inclination)
         assert tail is not None and slope is not None  # the campaign reader has seen to it
-        chain = AxialChain(
-            self.length, self.EA, self.mass, friction, tail, slope, self.damping_ratio, self.presliding
-        )  # fmt: skip
+        chain = self.chain(friction, tail, slope)
         position = told_position(experiment, self.length)
         assert record.time is not None
         return TowedCable(chain, record.time - record.time[0], position)
+
+    def chain(self, friction: float, tail: float, slope: float) -> AxialChain:
+        """The cable at a friction coefficient, a tail tension [N] and an inclination [rad]."""
+        return AxialChain(
+            self.length, self.EA, self.mass, friction, tail, slope, self.damping_ratio, self.presliding,
+            elements=self.elements,
+        )  # fmt: skip
 
     def predict(self, experiment: Experiment, friction: float, active: Sequence[ActiveEffect] = ()) -> dict[str, Array]:
         """What the channels of a record read, (n,) each."""

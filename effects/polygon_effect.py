@@ -17,6 +17,8 @@ from effects.effect import Array, BenchPath, Effect, Form, Parameter, Starts
 from effects.sensor_drift import needs_clock
 from effects.towed_cable import TowedCable
 
+_SHORTEST, _LONGEST, _MOST = 0.04, 0.4, 60
+
 
 def _act(cable: TowedCable, strength: Sequence[float], pitch: float) -> TowedCable:
     A, B = (float(v) for v in strength)
@@ -34,8 +36,10 @@ def _act(cable: TowedCable, strength: Sequence[float], pitch: float) -> TowedCab
 
 
 def _pitches(paths: Sequence[BenchPath]) -> Array:
-    """Evenly spaced in the logarithm; the finer, the more ripples the longest travel holds."""
-    return np.geomspace(0.04, 0.4, 60)
+    """Evenly spaced in 1/travel, half a ripple of the longest record apart, at most so many."""
+    longest = max((float(np.ptp(p.strain)) for p in paths), default=0.0)
+    m = int(np.clip(2 * longest * (1 / _SHORTEST - 1 / _LONGEST), 6, _MOST))
+    return np.sort(1 / np.linspace(1 / _LONGEST, 1 / _SHORTEST, m))
 
 
 _STARTS: Starts = _pitches
