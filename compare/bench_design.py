@@ -22,6 +22,7 @@ from compare.bench_model import BenchModel
 from compare.bench_path import LedPath, bench_paths, load_per_strain, path_length
 from compare.experiment import Experiment
 from compare.innovations import innovations
+from compare.fit_store import FitStore
 from compare.kinds import KINDS
 from compare.noise_covariance import NoiseCovariance
 from compare.noise_floor import NoiseModel
@@ -170,12 +171,15 @@ class Block:
         Stiffnesses that the first columns belong to.
     groups : tuple of tuple of int
         Records that repeat each other; a group is the unit that is left out.
+    fits : FitStore or None
+        Where finished searches are kept (:mod:`compare.fit_store`).
     """
 
     kind: str
     base: tuple[str, ...]
     records: tuple[BenchRecord, ...] = field(repr=False)
     groups: tuple[tuple[int, ...], ...]
+    fits: FitStore | None = field(default=None, repr=False, compare=False)
 
     def pairs(self, members: Sequence[int]) -> list[tuple[int, int]]:
         """Pairs of records of a group that repeat each other sample by sample, and do not merely go on from each other."""

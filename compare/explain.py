@@ -10,6 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from compare.campaign import Campaign
 from compare.comparison import Comparison, compare, compare_calibrated
 from compare.effect_calibration import calibration_of, parameters_of
 from compare.findings import Candidate, Findings, NextExperiment, Place, SetError, Step, Verdict
+from compare.fit_store import FitStore
 from compare.gaussian_process_patch import patch_error, refit_error
 from compare.localisation import marks
 from compare.next_experiment import separating_experiment
@@ -43,6 +45,7 @@ def explain(
     campaign: Campaign,
     progress: Progress | None = None,
     library: Sequence[Effect] | None = None,
+    store: str | Path | None = None,
 ) -> Findings:
     """Find the physics that the linear model misses, and prove it on data that it did not fit.
 
@@ -56,6 +59,8 @@ def explain(
         Called with a fraction 0..1 and a sentence.
     library : sequence of Effect, optional
         What may be missing; by default everything that is installed or registered.
+    store : path, optional
+        File in which finished fits are kept; an explanation that was killed goes on from there.
 
     Raises
     ------
@@ -82,6 +87,9 @@ def explain(
             "no open experiment that the model covers is in the set calibrate: nothing can be learnt."
         )
     blocks = make_blocks(bench, before.model, before.noise)
+    if store is not None:
+        fits = FitStore.of(closed, effects, before.model, store)
+        blocks = tuple(replace(block, fits=fits) for block in blocks)
     tell(0.1, "asking what these experiments can tell apart")
     separation, untestable, smallest, D = testability(blocks, effects)
     outcome = decide(blocks, worth_trying(effects, blocks, D), lambda f, s: tell(0.15 + 0.65 * f, s))

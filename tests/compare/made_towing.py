@@ -39,7 +39,10 @@ def motion(speed: float, samples: int = 90, duration: float = 9.0) -> tuple[np.n
     return t, speed * 1.6 * unit * (eased(0.4 * unit, 3.0 * unit) - 0.6 * eased(4.6 * unit, 3.0 * unit))
 
 
-def tow_campaign(folder: Path, act=lambda cable: cable, noise: float = 3.0, seed: int = 1, sensor=None, conditions=CONDITIONS) -> Path:
+def tow_campaign(
+    folder: Path, act=lambda cable: cable, noise: float = 3.0, seed: int = 1, sensor=None, conditions=CONDITIONS,
+    stations=(12.0,),
+) -> Path:
     """Write a campaign whose cable `act` changes (TowedCable to TowedCable) and whose readings `sensor` changes (t, y)."""
     folder.mkdir(parents=True, exist_ok=True)
     rng = np.random.default_rng(seed)
@@ -49,7 +52,7 @@ def tow_campaign(folder: Path, act=lambda cable: cable, noise: float = 3.0, seed
         t, p = motion(speed)
         setup = TowingSetup(FRICTION, 30.0, 4e5, 4.6, tail, math.radians(slope), elements=ELEMENTS)
         chain = setup.chain(FRICTION, tail, math.radians(slope))
-        readings = act(TowedCable(chain, t, p)).tensions([12.0])
+        readings = act(TowedCable(chain, t, p)).tensions(stations)
         if sensor is not None:
             readings = [sensor(t, y) for y in readings]
         for k in "ab":
@@ -57,7 +60,7 @@ def tow_campaign(folder: Path, act=lambda cable: cable, noise: float = 3.0, seed
             table = np.column_stack([t, p, *(y + noise * rng.standard_normal(len(t)) for y in readings)])
             np.savetxt(
                 folder / f"{id}.csv", table, fmt="%.8g", delimiter=",", comments="",
-                header="time [s],position [m],tension [N],tension at 12 [N]",
+                header=",".join(["time [s],position [m],tension [N]", *(f"tension at {s:g} [N]" for s in stations)]),
             )  # fmt: skip
             rows.append(f"{id},towing,{id}.csv,S,{f'e{i}a' if k == 'b' else ''},calibrate,{speed},{slope},{tail}")
     (folder / "experiments.csv").write_text("\n".join(rows) + "\n")
