@@ -132,7 +132,9 @@ class AxialChain:
         to_tail = self.mass_between(edges, self.length)
         return to_tail[:-1] - to_tail[1:]
 
-    def run(self, time: Array, position: Array, stations: Sequence[float] = (), substeps: int | None = None) -> AxialRun:
+    def run(
+        self, time: Array, position: Array, stations: Sequence[float] = (), substeps: int | None = None
+    ) -> AxialRun:
         """Tension while the towed end is led along `position`.
 
         Parameters

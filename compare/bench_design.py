@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from compare.bench_model import BenchModel
 from compare.bench_path import LedPath, bench_paths, load_per_strain, path_length
 from compare.experiment import Experiment
-from compare.innovations import innovations
 from compare.fit_store import FitStore
+from compare.innovations import innovations
 from compare.kinds import KINDS
 from compare.noise_covariance import NoiseCovariance
 from compare.noise_floor import NoiseModel

@@ -188,7 +188,13 @@ def compare(model: BenchModel, campaign: Campaign, progress: Progress | None = N
         for channel in e.record.measured
     ]
     tests = _lack_of_fit(fits, noise, calibration)
-    notes = (*noise.notes, *calibration.notes, *aside, *(model.towing.notes if model.towing else ()), *_notes(campaign, bench, gaps))
+    notes = (
+        *noise.notes,
+        *calibration.notes,
+        *aside,
+        *(model.towing.notes if model.towing else ()),
+        *_notes(campaign, bench, gaps),
+    )
     report(1.0, "compared")
     return Comparison(campaign, model, calibration, noise, tuple(fits), tuple(gaps), tests, notes)
 

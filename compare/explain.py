@@ -27,9 +27,9 @@ from compare.next_experiment import separating_experiment
 from compare.rivals import TIE, tied
 from compare.search import Attempt, Progress, Stage
 from compare.section_finding import section_findings, with_expectations
-from compare.towing_setup import modelled
 from compare.testability import testability, worth_trying
 from compare.thinning import thinned
+from compare.towing_setup import modelled
 from compare.validation import set_error
 from compare.verdict import Outcome, decide
 from effects.effect import Effect
@@ -83,9 +83,7 @@ def explain(
     before = compare(model.linear, closed)
     bench = [e for e in closed.of_set("calibrate") if model.covers(e)]
     if not bench:
-        raise InputError(
-            "no open experiment that the model covers is in the set calibrate: nothing can be learnt."
-        )
+        raise InputError("no open experiment that the model covers is in the set calibrate: nothing can be learnt.")
     blocks = make_blocks(bench, before.model, before.noise)
     if store is not None:
         fits = FitStore.of(closed, effects, before.model, store)

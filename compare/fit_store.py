@@ -60,7 +60,9 @@ class FitStore:
         """How many searches were not done again."""
         return self.store.found_again
 
-    def get(self, accepted: Sequence[ActiveEffect], tried: Sequence[str], searched: bool) -> tuple[tuple[float, ...], float] | None:
+    def get(
+        self, accepted: Sequence[ActiveEffect], tried: Sequence[str], searched: bool
+    ) -> tuple[tuple[float, ...], float] | None:
         """Shapes and log evidence of a search that was finished before."""
         found = self.store.get(self._inputs(accepted, tried, searched))
         if found is None:
@@ -68,7 +70,12 @@ class FitStore:
         return tuple(found[f"shape {k}"] for k in range(len(found) - 1)), found["log e"]
 
     def put(
-        self, accepted: Sequence[ActiveEffect], tried: Sequence[str], searched: bool, shape: Sequence[float], log_e: float
+        self,
+        accepted: Sequence[ActiveEffect],
+        tried: Sequence[str],
+        searched: bool,
+        shape: Sequence[float],
+        log_e: float,
     ) -> None:
         """Keep a finished search."""
         outputs = {f"shape {k}": float(v) for k, v in enumerate(shape)}
@@ -77,4 +84,10 @@ class FitStore:
 
     def _inputs(self, accepted: Sequence[ActiveEffect], tried: Sequence[str], searched: bool) -> dict[str, Any]:
         beside = [[t.effect.name, t.form.name, t.kind, t.channel, *t.shape] for t in accepted]
-        return {"version": _VERSION, "campaign": self.campaign, "accepted": beside, "tried": list(tried), "searched": searched}
+        return {
+            "version": _VERSION,
+            "campaign": self.campaign,
+            "accepted": beside,
+            "tried": list(tried),
+            "searched": searched,
+        }

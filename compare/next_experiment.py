@@ -204,7 +204,11 @@ class _Contest:
 
     def distance(self, proposal: Proposal | None) -> float:
         """D with the new condition done twice, or with everything repeated."""
-        new = self.existing if proposal is None else _REPEATS * self._products(proposal.record or _new_record(self.block, proposal.path))
+        new = (
+            self.existing
+            if proposal is None
+            else _REPEATS * self._products(proposal.record or _new_record(self.block, proposal.path))
+        )
         S = self.existing + new
         base = self.scan.base()
         model = replace(base, S=S[:, None], positive=self.positive)

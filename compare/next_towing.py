@@ -61,7 +61,11 @@ def _proposal(template: TowingRecord, faster: float, slope: float, tail: float, 
         "inclination [deg]": round(math.degrees(slope), 6),
         "tail tension [N]": round(tail, 6),
     }
-    channels = {name: replace(c, values=np.zeros(len(time))) for name, c in old.record.channels.items() if name in old.record.measured}
+    channels = {
+        name: replace(c, values=np.zeros(len(time)))
+        for name, c in old.record.channels.items()
+        if name in old.record.measured
+    }
     channels["position"] = Channel("position", "m", position)
     experiment = Experiment(
         id=f"proposed: {words}{', there and back' if back else ''}",

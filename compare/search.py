@@ -130,7 +130,11 @@ class Stage:
         beside, tried = self.accepted[site.block], (site.effect.name, form.name, site.kind, site.channel or "")
         known = block.fits.get(beside, tried, promising) if block.fits is not None else None
         if known is not None:
-            fit = searched(scan, site.term(form, known[0]), shapes) if promising else self._plain_fit(site, form, known[0])
+            fit = (
+                searched(scan, site.term(form, known[0]), shapes)
+                if promising
+                else self._plain_fit(site, form, known[0])
+            )
             log_e = known[1] if known[1] > _NO_EVIDENCE else -np.inf
         else:
             fit, log_e = self._searched(site, form, promising)

@@ -160,7 +160,9 @@ def told_position(experiment: Experiment, cable_length: float) -> Array:
     for channel in record.measured:
         s = station(channel)
         if s is not None and s > cable_length:
-            raise SpecError(f'{file}, column "{channel}": the station lies outside the cable, which is {cable_length:g} m long.')
+            raise SpecError(
+                f'{file}, column "{channel}": the station lies outside the cable, which is {cable_length:g} m long.'
+            )
     if record.prescribed == "speed":
         from scipy.interpolate import CubicSpline
 

@@ -24,7 +24,9 @@ def _act(smooth: bool) -> Callable[..., TowedCable]:
 
 
 def _why_untestable(paths: Sequence[BenchPath]) -> str | None:
-    return None if any(turns_back(p) for p in paths) else "the towed end never turns back, so that the loss has one sign"
+    return (
+        None if any(turns_back(p) for p in paths) else "the towed end never turns back, so that the loss has one sign"
+    )
 
 
 _LOSS = (

@@ -47,7 +47,7 @@ def explain(
     model, library = bench_model(read), None if effects is None else chosen_effects(effects)
     with progress("explaining") as tell:
         kept = None if out is None else folder(out) / FILE
-        findings = explain_campaign(model, read, progress=tell, library=library, **({"store": kept} if kept else {}))
+        findings = explain_campaign(model, read, progress=tell, library=library, store=kept)
     if open_sealed:
         if read.of_set("sealed"):
             with progress("opening the sealed experiments"):

@@ -1,5 +1,6 @@
 """A cable dragged along a trough as an axial chain: rigid and slow limits, wave speed, weight, energy, order of convergence."""
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -37,7 +38,9 @@ def test_slow_pull_is_tail_weight_and_coulomb_friction():
         below = 4.6 * GRAVITY * (40 - s)
         for i, sign in ((50, 1), (150, -1)):
             exact = 800 + below * (math.sin(0.1) + sign * 0.35 * math.cos(0.1))
-            assert T[i] == pytest.approx(exact, abs=0.01 * 0.35 * 4.6 * GRAVITY * 40)  # of the friction: the speed still changes
+            assert T[i] == pytest.approx(
+                exact, abs=0.01 * 0.35 * 4.6 * GRAVITY * 40
+            )  # of the friction: the speed still changes
 
 
 def test_friction_front_of_a_slow_pull():
@@ -53,7 +56,9 @@ def test_friction_front_of_a_slow_pull():
     position = eased(time, 0.0, 80.0, travel)
     pulled = run.tension - 800.0
     late = position > 0.2 * travel
-    np.testing.assert_allclose(pulled[late], np.sqrt(2 * 4e5 * w * position[late]), rtol=0.015)  # 1/100 of the front is one element
+    np.testing.assert_allclose(
+        pulled[late], np.sqrt(2 * 4e5 * w * position[late]), rtol=0.015
+    )  # 1/100 of the front is one element
     np.testing.assert_allclose(run.at[0][late] - 800.0, pulled[late] - 5.0 * w, atol=0.01 * pulled[-1])
 
 
@@ -92,7 +97,7 @@ def test_first_mode_and_its_damping():
     period = np.mean(np.diff(t[up]))
     wd = chain.first_frequency * math.sqrt(1 - 0.05**2)
     assert period == pytest.approx(2 * math.pi / wd, rel=3e-3)
-    peaks = [T[a:b].max() for a, b in zip(up[:-1], up[1:], strict=True)]
+    peaks = [T[a:b].max() for a, b in itertools.pairwise(up)]
     decay = -np.mean(np.diff(np.log(peaks)))
     assert decay == pytest.approx(2 * math.pi * 0.05 / math.sqrt(1 - 0.05**2), rel=0.01)
 

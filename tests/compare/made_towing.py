@@ -40,7 +40,12 @@ def motion(speed: float, samples: int = 90, duration: float = 9.0) -> tuple[np.n
 
 
 def tow_campaign(
-    folder: Path, act=lambda cable: cable, noise: float = 3.0, seed: int = 1, sensor=None, conditions=CONDITIONS,
+    folder: Path,
+    act=lambda cable: cable,
+    noise: float = 3.0,
+    seed: int = 1,
+    sensor=None,
+    conditions=CONDITIONS,
     stations=(12.0,),
 ) -> Path:
     """Write a campaign whose cable `act` changes (TowedCable to TowedCable) and whose readings `sensor` changes (t, y)."""

@@ -57,7 +57,11 @@ def test_added_load_rubs_weighs_and_is_told_by_a_station():
     inclined = replace(CHAIN, inclination=0.2)
     g = GRAVITY * (math.sin(0.2) + MU * math.cos(0.2))
     plain = steady("added-load", 0.2, (0.0,), chain=inclined, stations=[20.0])
-    for form, shape, at_end, at_station in ((0, (), 30.0, 10.0), (1, (5.0, 12.0), 7.0, 0.0), (1, (15.0, 25.0), 10.0, 5.0)):
+    for form, shape, at_end, at_station in (
+        (0, (), 30.0, 10.0),
+        (1, (5.0, 12.0), 7.0, 0.0),
+        (1, (15.0, 25.0), 10.0, 5.0),
+    ):
         loaded = steady("added-load", 0.2, (1.2,), shape, inclined, form, [20.0])
         assert loaded[0] - plain[0] == pytest.approx(1.2 * g * at_end, rel=2e-3)
         assert loaded[1] - plain[1] == pytest.approx(1.2 * g * at_station, abs=2e-3 * 1.2 * g * L)
