@@ -24,7 +24,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from beam.compiled import kernel
 from geometry.errors import ConvergenceError, InputError
@@ -112,12 +112,12 @@ class AxialChain:
         """beta = 2 zeta / omega_1 [s]."""
         return 2 * self.damping_ratio / self.first_frequency
 
-    def mass_between(self, s: Array | float, end: float) -> Array:
+    def mass_between(self, s: ArrayLike, end: float) -> Array:
         """Mass from the stations s to `end` [kg]."""
-        s = np.asarray(s, dtype=float)
-        total = self.mass * (end - s)
+        begin = np.asarray(s, dtype=np.float64)
+        total = self.mass * (end - begin)
         for extra, low, high in self.added:
-            total = total + extra * np.maximum(min(high, end) - np.clip(s, low, high), 0.0)
+            total = total + extra * np.maximum(min(high, end) - np.clip(begin, low, high), 0.0)
         return total
 
     def rest_tension(self, s: Array | float) -> Array:
@@ -229,7 +229,7 @@ def _led_motion(time_bytes: bytes, position_bytes: bytes, substeps: int) -> tupl
     time, position = np.frombuffer(time_bytes), np.frombuffer(position_bytes)
     parts = np.arange(substeps) / substeps
     t = np.append((time[:-1, None] + np.diff(time)[:, None] * parts).ravel(), time[-1])
-    spline = CubicSpline(time, position - position[0], bc_type=((1, 0.0), (2, 0.0)))
+    spline = CubicSpline(time, position - position[0], bc_type=((1, 0.0), (2, 0.0)))  # type: ignore[arg-type]
     motion = np.column_stack([spline(t), spline(t, 1), spline(t, 2)])
     t.setflags(write=False)
     motion.setflags(write=False)
@@ -246,7 +246,7 @@ def _read(s: float, h: float, out: Array) -> Array:
 
 
 @kernel
-def _kernel(
+def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
     t: Array,
     motion: Array,
     substeps: int,

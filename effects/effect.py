@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -177,7 +177,7 @@ class Derived:
     value: Callable[[Sequence[float], Array, BenchPath], float] = field(repr=False)
 
 
-Respond = Callable[..., Array]
+Respond = Callable[..., Any]
 Advance = Callable[..., tuple[Array, Array]]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -9,6 +10,9 @@ import typer
 
 from beam import TowingRun, builtin_scenarios, read_scenario
 from beam import tow as run_towing
+from effects.effect import ActiveEffect
+from effects.effect_record import read_effects
+from effects.rod_law import STRAINS_OF, RodLaw
 from geometry.errors import ConvergenceError, SpecError
 from helicable.beam_constants import BeamConstants, beam_constants
 from helicable.options import JsonOption
@@ -35,6 +39,12 @@ def tow(
     out: Annotated[
         Path | None, typer.Option("--out", metavar="DIR", help="Write run.nc, curves and pictures here.")
     ] = None,
+    effects: Annotated[
+        Path | None,
+        typer.Option(
+            "--effects", metavar="FILE", help="JSON of `helicable explain`: its section effects act in the rod."
+        ),
+    ] = None,
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with the run in DIR/run.nc that was ended from outside.")
     ] = False,
@@ -55,9 +65,13 @@ def tow(
     if resume and out is None:
         raise SpecError("--resume needs --out DIR, the folder in which the run was being written.")
     file = None if out is None else folder(out) / "run.nc"
-    run, used = towing_run(scenario, constants, cable, element=element, file=file, resume=resume)
+    found = None if effects is None else section_effects(effects)
+    run, used = towing_run(scenario, constants, cable, element=element, file=file, resume=resume, found=found)
     show_run(run, used)
     record = towing_json(run, used)
+    if found is not None:
+        without, _ = towing_run(scenario, constants, cable, element=element)
+        record["without_effects"] = show_change(without, run, found)
     if out is not None:
         written = [run.write(folder(out) / "run.nc"), *draw_run(run, out)]
         record["run"] = str(written[0])
@@ -76,6 +90,7 @@ def towing_run(
     element: str | None = None,
     file: Path | None = None,
     resume: bool = False,
+    found: Sequence[ActiveEffect] | None = None,
 ) -> tuple[TowingRun, BeamConstants]:
     """Read a scenario, resolve its constants (`cell`, if given, is the section of the cable), and run it with progress.
 
@@ -88,8 +103,41 @@ def towing_run(
         read = read.model_copy(update={"element": element})
     used = beam_constants(read, cable, cell)
     with progress("towing") as tell:
-        run = run_towing(read, used.section, progress=tell, file=file, resume=resume)
+        law = None if found is None else RodLaw(used.section, found)
+        run = run_towing(read, used.section, progress=tell, law=law, file=file, resume=resume)
     return run, used
+
+
+def section_effects(file: Path) -> tuple[ActiveEffect, ...]:
+    """The effects of the JSON of `helicable explain` that act in the section of a rod; the others are named and left aside.
+
+    Raises
+    ------
+    SpecError
+        If the file is no such JSON, or none of its effects acts in the section.
+    """
+    found = read_effects(file)
+    acting = tuple(a for a in found if a.form.advance is not None and a.kind in STRAINS_OF)
+    aside = [f"{a.effect.name} ({a.kind})" for a in found if a not in acting]
+    if not acting:
+        names = f" ({', '.join(aside)})" if aside else ""
+        raise SpecError(f"{file}: none of the effects that were found{names} acts in the section of a rod.")
+    if aside:
+        say(f"left aside, because they do not act in the section: {', '.join(aside)}.")
+    return acting
+
+
+def show_change(without: TowingRun, run: TowingRun, found: Sequence[ActiveEffect]) -> dict[str, float]:
+    """Print what the effects change in the towing prediction; the numbers without them."""
+    before, after = without.record(), run.record()
+    keys = {"peak_tension": "peak tension", "pull_force_plateau": "pull force, steady"}
+    rows = [
+        (words, f"{before[key]:.1f} N", f"{after[key]:.1f} N", f"{100 * (after[key] / before[key] - 1):+.2f} %")
+        for key, words in keys.items()
+    ]
+    names = ", ".join(dict.fromkeys(a.effect.name for a in found))
+    table(f"What {names} changes", ("", "without", "with", "change"), rows, right=(1, 2, 3))
+    return {key: before[key] for key in keys}
 
 
 FORCES = (
