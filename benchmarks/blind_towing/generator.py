@@ -8,6 +8,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -48,7 +49,8 @@ class Condition:
 class Case:
     """A campaign to be made; what is left out is drawn from the seed.
 
-    `share` is the part of the tension (rms, without tail tension and weight) that no friction coefficient can absorb.
+    `share` is the part of the tension (rms, without tail tension and weight) that no friction coefficient can absorb; `inside` says
+    whether a second tension is read at a station of the cable.
     """
 
     seed: int
@@ -60,6 +62,7 @@ class Case:
     conditions: tuple[tuple[float, float, float, str], ...] | None = None
     samples: int = 181
     duration: float = 18.0
+    inside: bool = True
 
 
 class TowingCampaign:
@@ -85,7 +88,8 @@ class TowingCampaign:
         self.noise = Noise(self.noise_kind, size, *scatter)
         self.share = case.share or float(rng.choice([0.03, 0.06, 0.12]))
         self.t = np.round(np.linspace(0.0, case.duration, case.samples), 9)
-        self.station = round(self.line.length * float(rng.uniform(0.3, 0.7)))
+        station = round(self.line.length * float(rng.uniform(0.3, 0.7)))
+        self.stations = (station,) if case.inside else ()
         self.conditions = tuple(self._conditions(rng))
         variants = (*case.variants, *[None] * len(self.names))
         drawn = [draw(rng, name, variants[i]) for i, name in enumerate(self.names)]
@@ -102,7 +106,7 @@ class TowingCampaign:
         line = self.line if friction is None else Line(**{**self.line.__dict__, "friction": friction})
         substeps = math.ceil((self.t[1] - self.t[0]) / _STEP)
         y = tow(line, [hidden.drive(c.motion) for c in conditions], [c.slope for c in conditions],
-                [c.tail for c in conditions], hidden.trough, self.t, [self.station], substeps)  # fmt: skip
+                [c.tail for c in conditions], hidden.trough, self.t, self.stations, substeps)  # fmt: skip
         return np.array([hidden.reading(self.t, c.motion(self.t)[0], r) for c, r in zip(conditions, y, strict=True)])
 
     @cached_property
@@ -112,6 +116,14 @@ class TowingCampaign:
         y = self.clean(Hidden())
         return y, (self.clean(Hidden(), 1.02 * mu) - y) / (0.02 * mu)
 
+    def also(self, *conditions: Condition) -> TowingCampaign:
+        """The same line with the same truth and further experiments."""
+        more = copy.copy(self)
+        for kept in ("plain", "at_rest", "readings"):
+            more.__dict__.pop(kept, None)
+        more.conditions = (*self.conditions, *conditions)
+        return more
+
     @property
     def unit(self) -> Array:
         """Rms of the tension that motion makes, per channel (channels,), records that are open."""
@@ -119,7 +131,7 @@ class TowingCampaign:
 
     @cached_property
     def at_rest(self) -> Array:
-        at = np.array([0.0, self.station])
+        at = np.array([0.0, *self.stations])
         return np.array([rest_tension(self.line, 0.0, c.slope, c.tail, at) for c in self.conditions])[:, :, None]
 
     @property
@@ -196,7 +208,7 @@ def _plan(rng: np.random.Generator) -> tuple[tuple[float, float, float, str], ..
 def label_of(made: TowingCampaign) -> dict[str, Any]:
     """What is true of a campaign, for the score only; the keys that :mod:`benchmarks.blind.judge` asks for."""
     D = made.distance() if made.truths else 0.0
-    count = 2 * sum(c.purpose == "calibrate" for c in made.conditions) * made.case.samples * 2
+    count = 2 * sum(c.purpose == "calibrate" for c in made.conditions) * made.case.samples * (1 + len(made.stations))
     return {
         "seed": made.case.seed, "group": made.group, "effects": list(made.names), "kind": "towing",
         "variants": [t.variant for t in made.truths], "sizes": [round(t.size, 4) for t in made.truths],
@@ -225,5 +237,5 @@ def make(case: Case | TowingCampaign, folder: str | Path) -> Path:
     rng = np.random.default_rng([555, made.case.seed])
     nominal = made.nominal * made.line.friction
     path = Path(folder)
-    write_folder(path, made.line, nominal, made.t, (made.station,), records_of(made, rng))
+    write_folder(path, made.line, nominal, made.t, made.stations, records_of(made, rng))
     return path

@@ -137,11 +137,11 @@ def _sampled(told: Drive, change: Callable[[Array, Array], Array]) -> Drive:
 
 
 def play(p: Array, width: float, first: float) -> Array:
-    """Output of a play of that width, whose follower first stands `first` widths away from being pushed uphill."""
-    out, low = np.empty_like(p), first * width
-    x = -low + p[0]
-    for n, target in enumerate(p):  # the follower lies within [target - width, target] moved by its start
-        x = min(max(x, target - low - 0.0), target - low + width)
+    """Output of a play of that width, whose follower first stands `first` widths before it is pushed uphill."""
+    out = np.empty_like(p)
+    x = p[0] + first * width
+    for n, pusher in enumerate(p):
+        x = min(max(x, pusher), pusher + width)
         out[n] = x
     return out - out[0]
 
