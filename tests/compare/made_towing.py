@@ -1,4 +1,4 @@
-"""Small towing campaigns with a known truth: four conditions, each twice, 90 samples, one station inside the cable."""
+"""Small towing campaigns with a known truth: four conditions, each twice, 60 samples, one station inside the cable."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ presliding = "0.3 mm"
 [section]
 EI = "95 N m^2"
 """
-FRICTION, ELEMENTS = 0.35, 16
+FRICTION, ELEMENTS = 0.35, 10
 
 
-def motion(speed: float, samples: int = 90, duration: float = 9.0) -> tuple[np.ndarray, np.ndarray]:
+def motion(speed: float, duration: float = 6.0) -> tuple[np.ndarray, np.ndarray]:
     """Forth and half back, smooth, with rests; the travel grows with the speed."""
-    t = np.linspace(0.0, duration, samples)
+    t = np.linspace(0.0, duration, round(10 * duration))
 
     def eased(start: float, length: float) -> np.ndarray:
         s = np.clip((t - start) / length, 0.0, 1.0)
@@ -47,6 +47,7 @@ def tow_campaign(
     sensor=None,
     conditions=CONDITIONS,
     stations=(12.0,),
+    duration=6.0,
 ) -> Path:
     """Write a campaign whose cable `act` changes (TowedCable to TowedCable) and whose readings `sensor` changes (t, y)."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -54,7 +55,7 @@ def tow_campaign(
     rows = ["id,kind,file,specimen,repeat_of,set,speed [m/s],inclination [deg],tail tension [N]"]
     (folder / "campaign.toml").write_text(TOML)
     for i, (speed, slope, tail) in enumerate(conditions):
-        t, p = motion(speed)
+        t, p = motion(speed, duration)
         setup = TowingSetup(FRICTION, 30.0, 4e5, 4.6, tail, math.radians(slope), elements=ELEMENTS)
         chain = setup.chain(FRICTION, tail, math.radians(slope))
         readings = act(TowedCable(chain, t, p)).tensions(stations)

@@ -102,6 +102,30 @@ def test_polygon_ripple_has_the_period_of_the_pockets():
     assert frequency == pytest.approx(0.1 / 0.1, abs=0.05)  # a line of the spectrum
 
 
+def test_polygon_drive_is_one_motion_with_its_phase_at_the_start():
+    """v = p', a = v'; the speed is (1 + A) v at a pocket's begin and (1 - B) v a quarter of it later."""
+    t = np.linspace(0.0, 4.0, 4001)
+    x, v, a = 0.01 * t**3, 0.03 * t**2, 0.06 * t
+    (drive,) = find("polygon-effect").forms[0].respond(TowedCable(CHAIN, t, x), (0.05, 0.02), 0.1).drives
+    p1, v1, a1 = drive(t, np.column_stack([x, v, a])).T
+    for rate, found in ((p1, v1), (v1, a1)):
+        np.testing.assert_allclose(np.gradient(rate, t)[1:-1], found[1:-1], atol=2e-3 * np.abs(found).max())
+    ratio = np.interp([0.0, 0.1, 0.125, 0.15], x[1:], (v1[1:] / v[1:]))
+    assert ratio == pytest.approx([1.05, 1.05, 0.98, 0.95], abs=1e-4)
+
+
+def test_clamp_drive_is_one_motion():
+    """Outside the play the end moves as told, b behind after a reversal; inside it stands."""
+    t = np.linspace(0.0, 2.0, 401)
+    x = np.where(t < 1.0, t, 2.0 - t)
+    motion = np.column_stack([x, np.where(t < 1.0, 1.0, -1.0), 0 * t])
+    (drive,) = find("clamp-backlash").forms[0].respond(TowedCable(CHAIN, t, x), (), 0.2).drives
+    p, v, _ = drive(t, motion).T
+    expected = np.where(t < 1.0, t, np.minimum(1.0, 2.2 - t))
+    np.testing.assert_allclose(p, expected, atol=1e-12)
+    np.testing.assert_array_equal(v[[100, 220, 300]], [1.0, 0.0, -1.0])
+
+
 def test_ratio_error_scales_the_motion():
     """A linear chain answers (1 + e) times as much; a rigid one feels (1 + e) a."""
     cable = TowedCable(replace(CHAIN, friction=0.0), TIME, ramp(0.3))

@@ -1,6 +1,7 @@
 """Effects that were found on the bench go into the towing run: `helicable tow SCENARIO --effects explain.json`."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from geometry.errors import SpecError
 from helicable.commands import tow as command
 from helicable.main import main
 
+ROOT = Path(__file__).resolve().parents[2]
 FRICTION = ActiveEffect(
     find("interlayer-friction"), find("interlayer-friction").forms[0], "bending", None, (0.3, 0.8), (0.5,),
     BenchPath("bending", np.zeros(0), largest=1.5, typical_tension=2000.0),
@@ -63,6 +65,29 @@ def test_section_effects_reach_the_rod_and_the_change_is_shown(file, monkeypatch
     assert none is None and law.section is section and [a.effect.name for a in law.active] == ["interlayer-friction"]
     assert "left aside, because they do not act in the section: sensor-lag (bending)" in out
     assert "1000.0 N" in out and "1100.0 N" in out and "+10.00 %" in out
+
+
+def test_damping_of_the_bench_raises_the_pull_of_the_rod(tmp_path):
+    """A cable that resists bending at a rate takes work at the roller: end to end, from the file of the findings to the pull."""
+    text = (ROOT / "data" / "scenarios" / "intelligent-horizontal.toml").read_text(encoding="utf-8")
+    for told, short in (
+        ("{ value = 400,", "{ value = 86,"),
+        ('"10 s", status = "assumed", range = ["6 s"', '"0.8 s", status = "assumed", range = ["0.5 s"'),
+        ('"0.5 s", status = "assumed", range = ["0 s"', '"0 s", status = "assumed", range = ["0 s"'),
+        ('"2.5 s", status = "assumed", range = ["1 s"', '"0.4 s", status = "assumed", range = ["0.2 s"'),
+    ):
+        assert text.count(told) == 1
+        text = text.replace(told, short)
+    scenario, found, out = tmp_path / "short.toml", tmp_path / "found.json", tmp_path / "tow.json"
+    scenario.write_text(text, encoding="utf-8")
+    damping = find("viscous-damping")
+    active = ActiveEffect(damping, damping.forms[0], "bending", strength=(1.0,))
+    found.write_text(json.dumps({"schema": 1, "found": [effect_record(active)]}))
+    assert main(["tow", str(scenario), "--constants", "published", "--effects", str(found), "--json", str(out)]) == 0
+    record = json.loads(out.read_text())
+    assert record["status"] == "completed"
+    without = record["without_effects"]["pull_force_plateau"]
+    assert record["pull_force_plateau"] > 1.01 * without  # the peak, a wave of the start, is damped instead
 
 
 def test_what_cannot_act_in_a_rod_is_refused_in_a_sentence(file, tmp_path):
