@@ -95,7 +95,8 @@ def truth_text() -> str:
     )
     return f"""# Truth of the synthetic campaigns
 
-Nothing in helicable reads this page, nor [truth.json](truth.json), from which only the score is taken. Made by `python -m benchmarks.shipped_campaigns`.
+Nothing in helicable reads this page, nor [truth.json](truth.json), from which only the score
+is taken. Made by `python -m benchmarks.shipped_campaigns`.
 
 ## example-hidden-effect
 

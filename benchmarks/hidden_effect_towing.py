@@ -122,8 +122,8 @@ README = """# Towing runs, site {number}
 **Synthetic.** A cable is towed to and fro along a trough; the tension is read at the towed end and {station:g} m from it. Six conditions,
 each done twice: four to calibrate, one to validate, one sealed (faster and steeper than the others).
 
-Whether an effect beyond an elastic cable with Coulomb friction is hidden here stands in [../truth.md](../truth.md), outside this folder. Made in Exudyn by
-`python -m benchmarks.shipped_campaigns`, with no code of the model that explains.
+Whether an effect beyond an elastic cable with Coulomb friction is hidden here stands in
+[../truth.md](../truth.md), outside this folder. Made in Exudyn by `python -m benchmarks.shipped_campaigns`, with no code of the model that explains.
 """
 
 
@@ -153,7 +153,9 @@ def with_noise(site: Site, conditions: Sequence[Condition], clean: Array) -> lis
     records = []
     for condition, y, r in zip(conditions, clean, rest, strict=True):
         for _ in range(2):
-            noisy = [one + site.noise.draw(rng, one - at_rest, float(s)) for one, at_rest, s in zip(y, r, unit, strict=True)]
+            noisy = [
+                one + site.noise.draw(rng, one - at_rest, float(s)) for one, at_rest, s in zip(y, r, unit, strict=True)
+            ]
             records.append((condition, np.array(noisy)))
     return records
 
@@ -172,4 +174,5 @@ def truth_section(site: Site) -> str:
     """Section of truth.md."""
     what = ", ".join(f"**{name}**" for name in site.effects)
     head = f"Missing in the base model: {what}, and nothing else: {site.words}." if what else "Nothing is missing."
-    return f"## {site.name}\n\n{head}\nTrue friction coefficient {site.line.friction:g}, nominal {site.nominal_friction:g}. {noise_words(site.noise)}\n"
+    friction = f"True friction coefficient {site.line.friction:g}, nominal {site.nominal_friction:g}."
+    return f"## {site.name}\n\n{head}\n{friction} {noise_words(site.noise)}\n"

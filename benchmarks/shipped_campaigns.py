@@ -29,8 +29,8 @@ HASH = "SHA-256 of [truth.json](../truth.json): `{}`\n"
 
 TORSION_README = """# Torsion tests
 
-**Synthetic.** A cable is twisted to and fro under axial tension, at several amplitudes, frequencies, tensions and temperatures, every condition twice:
-some to calibrate, some to validate, some sealed.
+**Synthetic.** A cable is twisted to and fro under axial tension, at several amplitudes, frequencies, tensions and temperatures,
+every condition twice: some to calibrate, some to validate, some sealed.
 
 Whether an effect beyond a linear stiffness is hidden here stands in [../truth.md](../truth.md), outside this folder. Made by
 `python -m benchmarks.shipped_campaigns`, with no code of the model that explains.
@@ -78,7 +78,9 @@ def write_truth(parent: Path) -> str:
     for name in truths():
         readme = parent / name / "README.md"
         if readme.is_file():
-            body = "\n".join(x for x in readme.read_text(encoding="utf-8").splitlines() if not x.startswith("SHA-256 of"))
+            body = "\n".join(
+                x for x in readme.read_text(encoding="utf-8").splitlines() if not x.startswith("SHA-256 of")
+            )
             readme.write_text(f"{body.rstrip()}\n\n{HASH.format(digest)}", encoding="utf-8")
     return digest
 

@@ -59,5 +59,7 @@ def at_random(rng: np.random.Generator, made: Hidden, conditions: Mapping[str, f
     amplitude = float(rng.uniform(0.4, 1.0) * bench.scale)
     drawn = {path: amplitude, "temperature [degC]": float(bench.temperature.max()) + 20.0}
     if speed:
-        drawn[speed] = float(2 * np.pi * amplitude * np.exp(rng.uniform(*np.log([bench.frequency.min(), bench.frequency.max()]))))
+        drawn[speed] = float(
+            2 * np.pi * amplitude * np.exp(rng.uniform(*np.log([bench.frequency.min(), bench.frequency.max()])))
+        )
     return drawn

@@ -17,10 +17,10 @@ from benchmarks.blind_towing.score import read_log, run, table
 
 HEAD = """# Blind towing campaigns
 
-Hidden-effect towing campaigns made by a simulator that shares no code with the model that explains ([benchmarks/blind_towing](blind_towing)),
-and what `explain` says of them. Line, trough, noise, effect and its form are drawn from the seed; half of the forms are richer than those of the library.
-The label stays outside the folder. *share*: part of the tension that no friction coefficient absorbs; *D*: its distance from the best base model in units of the noise;
-errors in noise floors.
+Hidden-effect towing campaigns made by a simulator that shares no code with the model that explains
+([benchmarks/blind_towing](blind_towing)), and what `explain` says of them. Line, trough, noise, effect and its form are drawn from the
+seed; half of the forms are richer than those of the library. The label stays outside the folder. *share*: part of the tension that no
+friction coefficient absorbs; *D*: its distance from the best base model in units of the noise; errors in noise floors.
 
     .venv/bin/python -m benchmarks.blind_towing --first {first} --campaigns {count} --out benchmarks/blind_towing.md
 
@@ -32,9 +32,16 @@ errors in noise floors.
 def main(argv: list[str]) -> int:
     """Run, and write what is asked for."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.blind_towing")
-    parser.add_argument("--campaigns", type=int, default=44, help="how many; every 11 have 6 single effects, 3 nulls, a pair, an outsider")
+    parser.add_argument(
+        "--campaigns",
+        type=int,
+        default=44,
+        help="how many; every 11 have 6 single effects, 3 nulls, a pair, an outsider",
+    )
     parser.add_argument("--first", type=int, default=1000, help="first seed; seeds below 1000 are for tuning")
-    parser.add_argument("--minutes", type=float, default=1e9, help="begin no campaign after so many minutes of CPU time")
+    parser.add_argument(
+        "--minutes", type=float, default=1e9, help="begin no campaign after so many minutes of CPU time"
+    )
     parser.add_argument("--log", type=Path, default=Path("out/blind-towing.jsonl"))
     parser.add_argument("--out", type=Path, help="write the table to this Markdown file")
     parser.add_argument("--picture", type=Path, default=Path("docs/pictures/blind-towing-confusion.png"))

@@ -57,7 +57,9 @@ def draw_confusion(rows: Sequence[Row], file: Path, title: str) -> None:
             if name in right_answers(truth):
                 axes.add_patch(Rectangle((j - 0.5, i - 0.5), 1, 1, fill=False, edgecolor="tab:green", linewidth=1.6))
     axes.set_xticks(range(len(answers)), answers, rotation=45, ha="right", fontsize=8)
-    axes.set_yticks(range(len(truths)), [f"{t} ({n})" for t, n in zip(truths, counts.sum(axis=1), strict=True)], fontsize=8)
+    axes.set_yticks(
+        range(len(truths)), [f"{t} ({n})" for t, n in zip(truths, counts.sum(axis=1), strict=True)], fontsize=8
+    )
     axes.set_xlabel("what was said")
     axes.set_ylabel("what is true (campaigns)")
     axes.set_title(title, fontsize=10)

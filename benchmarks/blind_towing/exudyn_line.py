@@ -6,8 +6,8 @@ are the generic second-order object of Exudyn,
 .. math::  M \ddot u + \beta K \dot u + K u = -M_0 \ddot p - K_0 (p + \beta \dot p) - f - c \dot u
 
 with friction f lumped at the nodes: a spring that slides once it carries mu N (elastic-perfectly-plastic over the presliding), its
-travel committed before every step. Exudyn's own bristle (CoordinateSpringDamperExt) agrees with this within 0.1 % while the line slides, but
-forgets at a standstill what the bristle carried; the contract has it mobilised by travel alone. An optional peer: `pip install exudyn`.
+travel committed before every step. Exudyn's own bristle (CoordinateSpringDamperExt) agrees with this within 0.1 % while the line
+slides, but forgets at a standstill what the bristle carried; the contract has it mobilised by travel alone. An optional peer: `pip install exudyn`.
 """
 
 from __future__ import annotations
@@ -131,7 +131,10 @@ def tow_exudyn(
     def before(mbs: exudyn.MainSystem, _end: float) -> bool:
         i = 2 * done[0]
         done[0] += 1
-        u, v = np.append(p[i], mbs.systemData.GetODE2Coordinates()), np.append(pv[i], mbs.systemData.GetODE2Coordinates_t())
+        u, v = (
+            np.append(p[i], mbs.systemData.GetODE2Coordinates()),
+            np.append(pv[i], mbs.systemData.GetODE2Coordinates_t()),
+        )
         friction.commit(u)
         if i % (2 * each) == 0:
             w = u + beta * v

@@ -22,4 +22,8 @@ def at_random(rng: np.random.Generator, made: TowingCampaign, conditions: Mappin
     """An experiment of the same cost as the proposed one, which changes one thing: here the tail tension, at a speed that was driven."""
     speed = float(rng.choice([c.speed for c in made.conditions]))
     slope = math.degrees(made.conditions[0].slope)
-    return {"speed [m/s]": speed, "inclination [deg]": slope, "tail tension [N]": 2 * max(c.tail for c in made.conditions)}
+    return {
+        "speed [m/s]": speed,
+        "inclination [deg]": slope,
+        "tail tension [N]": 2 * max(c.tail for c in made.conditions),
+    }

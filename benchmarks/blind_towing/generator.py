@@ -175,7 +175,9 @@ class TowingCampaign:
 
     def noisy(self, rng: np.random.Generator, clean: Array, at_rest: Array) -> Array:
         """One record (channels, samples) as the sensors give it."""
-        return np.array([y + self.noise.draw(rng, y - r, float(s)) for y, r, s in zip(clean, at_rest, self.unit, strict=True)])
+        return np.array(
+            [y + self.noise.draw(rng, y - r, float(s)) for y, r, s in zip(clean, at_rest, self.unit, strict=True)]
+        )
 
 
 def _drawn_names(rng: np.random.Generator, seed: int, group: str) -> tuple[str, ...]:

@@ -123,7 +123,7 @@ def shares(rows: Iterable[Row]) -> list[Share]:
         Share("outside: unknown", sum(map(right, outside)), len(outside), ">= 0.85"),
         Share("outside: called identified", sum(r["verdict"] == "identified" for r in outside), len(outside), "<= 0.05"),
         Share("too small to be seen: named wrongly", sum(map(wrong, hidden)), len(hidden), "<= 0.02"),
-        Share("error of the validation runs below 1.5 noise floors", sum((r.get("after") or 9.0) < 1.5 for r in known), len(known), ">= 0.90"),
+        Share("validation error below 1.5 noise floors", sum((r.get("after") or 9.0) < 1.5 for r in known), len(known), ">= 0.90"),
         Share("broke down", sum(r["verdict"] == "crash" for v in by.values() for r in v), sum(map(len, by.values())), "0"),
     ]  # fmt: skip
 
@@ -139,11 +139,21 @@ def said(row: Row) -> str:
 
 def table(rows: Sequence[Row]) -> str:
     """The scorecard in Markdown."""
-    lines = ["| measure | value | bar | count | 95 % interval |", "|---|---|---|---|---|", *(s.line() for s in shares(rows)), ""]
-    lines += ["| truth | variant | share | noise | D | said | error on validate: before, after | CPU s |", "|---|---|---|---|---|---|---|---|"]
+    lines = [
+        "| measure | value | bar | count | 95 % interval |",
+        "|---|---|---|---|---|",
+        *(s.line() for s in shares(rows)),
+        "",
+    ]
+    lines += [
+        "| truth | variant | share | noise | D | said | error on validate: before, after | CPU s |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
     for row in sorted(rows, key=lambda r: (r["label"]["group"], r["label"]["effects"], r["seed"])):
         label = row["label"]
-        names = ", ".join(row["effects"]) + (f" {{{', '.join(sorted(row['confusable']))}}}" if row["confusable"] else "")
+        names = ", ".join(row["effects"]) + (
+            f" {{{', '.join(sorted(row['confusable']))}}}" if row["confusable"] else ""
+        )
         errors = f"{row['before']:.2f}, {row['after']:.2f}" if row.get("after") else "-"
         lines.append(
             f"| {' + '.join(label['effects']) or '(none)'} | {' + '.join(label['variants'])} | {label['strength']:g} | "

@@ -116,12 +116,12 @@ def tow(
     normal = h * mass * GRAVITY * np.cos(np.asarray(slopes))[:, None]
     drag = h * np.broadcast_to(trough.drag, N)
     half = 2 * line.EA / h
-    u, v, a, z, way = (np.zeros((R, N)) for _ in range(5))
+    u, v, a, z, way, last = (np.zeros((R, N)) for _ in range(6))
     kept = np.zeros((R, 1 + len(stations), len(t)))
     faces = np.arange(N + 1) * h
     for n in range(1, len(fine)):
         guess, rate = u + dt * v + dt**2 / 4 * a, v + dt / 2 * a
-        gone = guess + dt**2 / 4 * a - (u if n == 1 else last)  # friction moves with the explicit prediction
+        gone = guess + dt**2 / 4 * a - last  # friction moves with the explicit prediction
         last = guess + dt**2 / 4 * a
         way = np.where(gone * z < 0, 0.0, way + np.abs(gone))
         z = np.clip(z + gone, -line.presliding, line.presliding)

@@ -35,7 +35,7 @@ Reading = Callable[[Array, Array, Array], Array]
 class Hidden:
     """What differs from the line that campaign.toml describes."""
 
-    trough: Trough = Trough()
+    trough: Trough = field(default_factory=Trough)
     drive: Callable[[Drive], Drive] = lambda told: told
     reading: Reading = lambda t, p, y: y
 

@@ -58,7 +58,7 @@ def test_towing_campaigns(name):
 
 
 def test_suggest_and_do(tmp_path):
-    """Bending at one tension: friction and yield are a set. The proposed experiment leaves the true name, one at random of its cost the set."""
+    """Bending at one tension: friction and yield are a set; the proposed experiment leaves the true name, a random one the set."""
     made = hidden(11, noise="white", size=0.01, strength=0.05, two_kinds=False, **TIED)
     rivals = ("interlayer-friction", "plasticity")
     first = explained(write(made, tmp_path / "first"), rivals)

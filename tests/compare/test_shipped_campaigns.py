@@ -55,7 +55,7 @@ def test_torsion_is_made_again_to_the_last_digit_but_one(tmp_path):
 @pytest.mark.skipif(not installed(), reason="the simulator of these data is not installed")
 @pytest.mark.parametrize("site", SITES, ids=lambda s: s.name)
 def test_towing_runs_are_those_of_the_simulator(site):
-    """The first eighth of the fastest run to calibrate, made again: the two repeats scatter round it by the noise alone (1 % and scatter)."""
+    """The first eighth of the fastest run to calibrate, made again: both repeats lie round it within the noise."""
     t = np.linspace(0.0, DURATION, SAMPLES)[: SAMPLES // 8]
     condition = site.conditions()[2]
     drive = site.ripple(condition.motion) if site.ripple else condition.motion

@@ -15,7 +15,10 @@ T = np.linspace(0.0, 4.0, 41)
 DRIVE = to_and_fro(0.4, 4.0)
 
 
-def one(trough=Trough(), slope=0.1, drive=DRIVE, line=LINE, substeps=50):
+COULOMB = Trough()
+
+
+def one(trough=COULOMB, slope=0.1, drive=DRIVE, line=LINE, substeps=50):
     return tow(line, [drive], [slope], [900.0], trough, T, [12.0], substeps)[0]
 
 
@@ -34,7 +37,9 @@ def test_steady_sliding_carries_friction_of_everything_below():
         return np.maximum(t - 0.5, 0) * v + np.where(t < 0.5, v * t**2, 0.25 * v), v * np.minimum(2 * t, 1), begin * t
 
     for s, y in zip((0, 12), one(Trough(drag=6.0), drive=steady)[:, -8:].mean(axis=1), strict=True):
-        assert y == pytest.approx(900 + (30 - s) * (5 * GRAVITY * (math.sin(0.1) + 0.35 * math.cos(0.1)) + 6 * v), rel=5e-3)
+        assert y == pytest.approx(
+            900 + (30 - s) * (5 * GRAVITY * (math.sin(0.1) + 0.35 * math.cos(0.1)) + 6 * v), rel=5e-3
+        )
 
 
 def test_load_counts_in_weight_and_friction():
