@@ -123,7 +123,8 @@ README = """# Towing runs, site {number}
 each done twice: four to calibrate, one to validate, one sealed (faster and steeper than the others).
 
 Whether an effect beyond an elastic cable with Coulomb friction is hidden here stands in
-[../truth.md](../truth.md), outside this folder. Made in Exudyn by `python -m benchmarks.shipped_campaigns`, with no code of the model that explains.
+[../truth.md](../truth.md), outside this folder. Made in Exudyn by `python -m benchmarks.shipped_campaigns`,
+with no code of the model that explains.
 """
 
 

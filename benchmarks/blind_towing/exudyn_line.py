@@ -7,7 +7,8 @@ are the generic second-order object of Exudyn,
 
 with friction f lumped at the nodes: a spring that slides once it carries mu N (elastic-perfectly-plastic over the presliding), its
 travel committed before every step. Exudyn's own bristle (CoordinateSpringDamperExt) agrees with this within 0.1 % while the line
-slides, but forgets at a standstill what the bristle carried; the contract has it mobilised by travel alone. An optional peer: `pip install exudyn`.
+slides, but forgets at a standstill what the bristle carried; the contract has it mobilised by travel alone.
+An optional peer: `pip install exudyn`.
 """
 
 from __future__ import annotations
