@@ -24,7 +24,7 @@ presliding = "0.3 mm"
 [section]
 EI = "95 N m^2"
 """
-FRICTION, ELEMENTS = 0.35, 10
+FRICTION, ELEMENTS = 0.35, 8
 
 
 def motion(speed: float, duration: float = 6.0) -> tuple[np.ndarray, np.ndarray]:
