@@ -27,7 +27,7 @@ def test_the_pull_of_the_chain_is_that_of_the_rod():
     chain = AxialChain(
         LENGTH, EA, 10.0, MU, presliding=stiff, damping_ratio=2.5e-3 * chain.first_frequency, elements=64
     )
-    time = dt * np.arange(201)
+    time = dt * np.arange(201.0)
     run = chain.run(time, np.array([ramp(t)[0][0] for t in time]), substeps=2)
     limit = MU * 98.1 * LENGTH
     assert rod.max() > 1.2 * limit  # inertia and friction of the whole cable

@@ -48,6 +48,7 @@ def test_named_with_its_parameters(name):
         [truth], kind, one_sided(RICH) if kind == "tension" else RICH, seed=3, n=40,
         also=("torque",) if coupled else (), scale={"torque": 5.0} if coupled else None,
     )  # fmt: skip
+    assert campaign.section is not None
     findings = explain(BenchModel(campaign.section), campaign)
     if name in TWINS:
         assert findings.verdict == "confusable"

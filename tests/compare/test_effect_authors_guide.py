@@ -47,6 +47,7 @@ def test_the_bench_effect_is_found_among_its_rivals(guide):
     """Onset 0.5 /m and gain 0.3 come back within 4 standard deviations; the error is at the noise floor."""
     campaign = made([switched("clamp-contact", "bending", (0.5,), (0.3,))], "bending", RICH[:5], seed=3, n=40)
     rivals = [guide["clamp_contact"], find("stiffening"), find("plasticity")]
+    assert campaign.section is not None
     findings = explain(BenchModel(campaign.section), campaign, library=rivals)
     assert (findings.verdict, findings.effects) == ("identified", ("clamp-contact",))
     found = findings.after.calibration.parameters
