@@ -17,6 +17,7 @@ import importlib.util
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,7 +51,8 @@ class _Elements:
 
     def __init__(self, line: Line, extra: Extra, pieces: int) -> None:
         h = self.h = line.length / pieces
-        inside = np.clip(np.arange(pieces + 1) * h, *(s * line.length for s in extra.stretch))
+        low, high = (s * line.length for s in extra.stretch)
+        inside = np.clip(np.arange(pieces + 1) * h, low, high)
         mass = line.mass + extra.load * np.diff(inside) / h
         self.M, self.K = np.zeros((pieces + 1,) * 2), np.zeros((pieces + 1,) * 2)
         for e in range(pieces):
@@ -60,7 +62,7 @@ class _Elements:
         self.mass = mass
         self.carried = self.M.sum(axis=1)
         edges = np.clip((np.arange(pieces + 2) - 0.5) * h, 0.0, line.length)
-        self.loaded = np.diff(np.clip(edges, *(s * line.length for s in extra.stretch)))
+        self.loaded = np.diff(np.clip(edges, low, high))
 
     def weight_below(self, s: float) -> float:
         """Mass below a station [kg]."""
@@ -107,7 +109,9 @@ def tow_exudyn(
     force that moves node 0.
     """
     import exudyn
-    import exudyn.itemInterface as items  # noqa: N813
+    import exudyn.itemInterface
+
+    items: Any = exudyn.itemInterface
 
     elements = _Elements(line, extra, pieces)
     M, K, beta = elements.M, elements.K, line.beta
@@ -122,14 +126,14 @@ def tow_exudyn(
     def at(now: float) -> int:
         return min(round(now * per_second), len(half) - 1)
 
-    def force(_mbs: object, now: float, _number: int, q: Sequence[float], q_t: Sequence[float]) -> Array:
+    def force(_mbs: object, now: float, _number: int, q: Any, q_t: Any) -> Array:
         i = at(now)
         whole[0, 0], whole[1, 0], whole[0, 1:], whole[1, 1:] = p[i], pv[i], q, q_t
         out = -friction(*whole)[1:]
         out[0] += led[i]
         return out
 
-    def before(mbs: exudyn.MainSystem, _end: float) -> bool:
+    def before(mbs: Any, _end: float) -> bool:
         i = 2 * done[0]
         done[0] += 1
         u, v = (
@@ -160,7 +164,7 @@ def tow_exudyn(
     )  # fmt: skip
     mbs.SetPreStepUserFunction(before)
     mbs.Assemble()
-    settings = exudyn.SimulationSettings()
+    settings: Any = exudyn.SimulationSettings()
     times = settings.timeIntegration
     times.numberOfSteps, times.endTime = each * (len(t) - 1) + 1, float(t[-1] + (t[1] - t[0]) / each)
     times.verboseMode = 0

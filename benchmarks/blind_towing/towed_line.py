@@ -108,7 +108,7 @@ def tow(
     """
     R, N, h = len(drives), line.cells, line.length / line.cells
     dt = float(t[1] - t[0]) / substeps
-    fine = np.arange((len(t) - 1) * substeps + 1) * dt
+    fine: Array = np.arange((len(t) - 1) * substeps + 1, dtype=float) * dt
     p, pv = (np.array(x) for x in list(zip(*(d(fine) for d in drives), strict=True))[:2])
     K, beta, x = _operator(line), line.beta, line.centres
     mass = np.broadcast_to(line.mass + np.asarray(trough.load, float), N)
