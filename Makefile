@@ -38,6 +38,7 @@ demo: install
 
 test: $(VENV)/.test-tools
 	@$(BIN)/python -c 'from geometry.gmsh_session import check_installation as check; check()'
+	@$(BIN)/python -m beam.precompile || true
 	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist loadfile
 
 lint: $(VENV)/.test-tools

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from beam.scenario import Scenario, published_section
     from beam.scenario_file import builtin_scenarios, read_scenario
     from beam.status import Outcome, Status
-    from beam.towing import tow
+    from beam.towing import accurate_settings, tow
     from beam.towing_run import TowingRun
 
 __all__ = [
-    "Outcome", "Scenario", "Status", "TowingRun", "builtin_scenarios", "published_section", "read_scenario", "tow",
+    "Outcome", "Scenario", "Status", "TowingRun", "accurate_settings", "builtin_scenarios", "published_section", "read_scenario", "tow",
 ]  # fmt: skip
 
 _HOME = {
@@ -26,6 +26,7 @@ _HOME = {
     "Scenario": "beam.scenario",
     "Status": "beam.status",
     "TowingRun": "beam.towing_run",
+    "accurate_settings": "beam.towing",
     "builtin_scenarios": "beam.scenario_file",
     "published_section": "beam.scenario",
     "read_scenario": "beam.scenario_file",

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beam.generalized_alpha import Integrator, StepSettings
 from beam.motion import SpeedRamp
@@ -14,10 +15,12 @@ from beam.rod_model import RodModel, Support
 from beam.section_law import DampingTimes
 from beam.shape import straight, strands_and_arcs
 from beam.statics import equilibrium
-from beam.surface import ContactLaw, Cylinder, Plane
+from beam.surface import ContactLaw, Cylinder, FreeTurn, Plane, Spin
 from geometry.errors import ConvergenceError
 from homogenize.benchmark import Benchmark, Case
 from homogenize.section_stiffness import SectionInertia, SectionStiffness
+
+Array = NDArray[np.float64]
 
 EA, WEIGHT, MU, LENGTH = 4.712e5, 98.1, 0.3, 16.0
 FLOOR_SECTION = SectionStiffness.uncoupled(EA=EA, GA_x=2e5, GA_y=2e5, EI_x=124.4, EI_y=124.4, GJ=86.0, area=1.0)
@@ -85,22 +88,30 @@ def exact_stick() -> Iterable[Benchmark]:
     yield Benchmark("F2 stick on a slope of 0.25 rad", "Coulomb", "creep in 10 s [m]", 0.0, creep, 1e-9, scale=1.0)
 
 
-def capstan(mu: float, beta: float = np.pi, kind: type[Rod] = Rod) -> Iterable[Benchmark]:
-    """An angle beta on a drum that does not turn, 40 elements on the arc: T2 / T1 = exp(mu beta)."""
+def round_drum(
+    mu: float, beta: float, speed: float, turn: Spin | FreeTurn | None = None, kind: type[Rod] = Rod, on_arc: int = 40
+) -> tuple[RodModel, Array]:
+    """A limp cable an angle beta round a drum, with T1 = 100 N at its start; the end is pulled along the direction that is
+    returned, with `speed` [m/s] from 0.5 s on. The drum's surface follows the cable if it turns about -z."""
     R, strand = DRUM_RADIUS, DRUM_STRAND
     EI = 2e-3
     section = SectionStiffness.uncoupled(EA=1e5, GA_x=1e4, GA_y=1e4, EI_x=EI, EI_y=EI, GJ=EI, area=1.0)
     inertia = SectionInertia(1.0, 1e-5, 1e-5, 2e-5)
     arc = beta * R
-    elements = round(40 * (2 * strand + arc) / arc)
+    elements = round(on_arc * (2 * strand + arc) / arc)
     rod = kind.straight(2 * strand + arc, elements, section, inertia, DampingTimes(2e-3, 2e-2))
     start = strands_and_arcs(rod.s, [(strand, 0.0), (arc, -1 / R), (strand, 0.0)], (-R, -strand, 0), np.pi / 2)
     load = np.zeros((rod.nodes, 12))
     load[0, 1] = -DRUM_TENSION
-    drum = Cylinder("drum", ContactLaw(friction=mu), (0.0, 0.0, 0.0), R)
+    drum = Cylinder("drum", ContactLaw(friction=mu), (0.0, 0.0, 0.0), R, turn=turn)
     away = np.array([np.sin(beta), np.cos(beta), 0.0]).round(15)
-    pull = SpeedRamp(0.01, 0.0, 0.5, direction=(float(away[0]), float(away[1]), 0.0))
-    model = RodModel(rod, start, [Support(-1, travel=pull)], load=load, surfaces=[drum])
+    pull = SpeedRamp(speed, 0.0, 0.5, direction=(float(away[0]), float(away[1]), 0.0))
+    return RodModel(rod, start, [Support(-1, travel=pull)], load=load, surfaces=[drum]), away
+
+
+def capstan(mu: float, beta: float = np.pi, kind: type[Rod] = Rod) -> Iterable[Benchmark]:
+    """An angle beta on a drum that does not turn, 40 elements on the arc: T2 / T1 = exp(mu beta)."""
+    model, away = round_drum(mu, beta, 0.01, kind=kind)
     rest = equilibrium(model)
     rest.outcome.require_success()
     name, still = f"F2 capstan, mu {mu:g}, {np.degrees(beta):.0f} deg", float(rest.forces.F[-1, 0:3] @ away)

@@ -2,14 +2,16 @@
 
 The file holds the arrays and plain values of :meth:`beam.generalized_alpha.Integrator.checkpoint` (also the factorised
 matrix, on which the last bits of a modified Newton iteration depend). The model is not in it: build it again as it was. A
-digest of its numbers tells whether that was done. The format is Python's pickle: read only files that you wrote.
+digest of its numbers, and the step settings, tell whether that was done. The format is Python's pickle: read only files that you wrote.
 """
 
 from __future__ import annotations
 
 import hashlib
 import pickle
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -18,12 +20,13 @@ from geometry.errors import InputError
 
 
 def model_digest(motion: Integrator) -> str:
-    """Digest of the numbers of a run's model and settings."""
+    """Digest of the numbers of a run's model."""
     model = motion.model
     digest = hashlib.sha256()
     for part in (*model.arrays, model.q0, model.external, model.held, model.surface_parameters(0.0)):
         digest.update(np.ascontiguousarray(part).tobytes())
-    digest.update(repr(motion.settings).encode())
+    for part in model.system.digest() if model.system is not None else ():
+        digest.update(np.ascontiguousarray(part).tobytes())
     return digest.hexdigest()
 
 
@@ -38,11 +41,15 @@ def write_checkpoint(motion: Integrator, path: str | Path) -> Path:
     path = Path(path)
     part = path.with_name(path.name + ".part")
     try:
-        part.write_bytes(pickle.dumps({"digest": model_digest(motion), "state": motion.checkpoint()}))
+        part.write_bytes(pickle.dumps(_kept(motion)))
         part.replace(path)
     except OSError as error:
         raise InputError(f"{path}: the checkpoint cannot be written there: {error}.") from None
     return path
+
+
+def _kept(motion: Integrator) -> dict[str, Any]:
+    return {"digest": model_digest(motion), "settings": asdict(motion.settings), "state": motion.checkpoint()}
 
 
 def read_checkpoint(motion: Integrator, path: str | Path) -> None:
@@ -55,9 +62,19 @@ def read_checkpoint(motion: Integrator, path: str | Path) -> None:
     """
     try:
         kept = pickle.loads(Path(path).read_bytes())
-        digest, state = kept["digest"], kept["state"]
-    except (OSError, pickle.UnpicklingError, EOFError, KeyError, TypeError) as error:
+        digest, settings, state = kept["digest"], kept["settings"], kept["state"]
+    except Exception as error:  # damaged bytes make pickle raise nearly anything
         raise InputError(f"{path}: no checkpoint can be read from it: {error}.") from None
+    other = [
+        f"{name} {settings.get(name)}, not {x}"
+        for name, x in asdict(motion.settings).items()
+        if settings.get(name) != x
+    ]
+    if other:
+        raise InputError(
+            f"{path}: the run was made with other step settings ({'; '.join(other)}): go on with those it was started with, "
+            f"or start it again."
+        )
     if digest != model_digest(motion):
-        raise InputError(f"{path}: the checkpoint was written by a run of another model or with other step settings.")
+        raise InputError(f"{path}: the checkpoint was written by a run of another model.")
     motion.restore(state)

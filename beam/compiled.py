@@ -32,7 +32,7 @@ def source_stamp(folder: Path = _HERE) -> str:
     digest = hashlib.sha256()
     for path in sorted({*_HERE.glob("*.py"), *folder.glob("*.py")}):
         text = path.read_bytes()
-        if b"@kernel" in text or b"@inlined" in text:
+        if b"@kernel" in text or b"@inlined" in text or b"@embedded" in text:
             digest.update(text)
     return digest.hexdigest()
 
@@ -53,10 +53,19 @@ def inlined(function: Function) -> Function:
     return _compiled(function, inline="always")
 
 
+def embedded(function: Function) -> Function:
+    """A short :func:`kernel` that is never called from Python: it has no entry of its own and dissolves in its callers.
+
+    Loops that the processor is to do several turns of at a time must hold no calls.
+    """
+    return _compiled(function, cache=False, forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+
+
 def _compiled(function: Function, **options: Any) -> Function:
     if _numba is None:
         return function
-    compiled: Any = _numba.njit(cache=True, error_model="numpy", fastmath={"contract"}, **options)(function)
+    options = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}} | options
+    compiled: Any = _numba.njit(**options)(function)
     stored: Any = getattr(getattr(compiled, "_cache", None), "_cache_file", None)
     if hasattr(stored, "_source_stamp"):
         stored._source_stamp = source_stamp(Path(function.__code__.co_filename).parent)  # type: ignore[attr-defined]

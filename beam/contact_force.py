@@ -3,13 +3,15 @@ r"""Contact of the centre line with planes and cylinders: penalty normal force, 
 Per length of cable, with the penetration g > 0 and the outward normal n of the surface,
 
 .. math:: f_n = \max(0,\; k_n g + c_n \dot g), \qquad
-          t^* = -k_t\,b - c_t\,\dot x_t, \quad b = (I - n n^T)(x - \text{anchor}),
+          b = (I - n n^T)(x - \text{anchor}), \quad t^* = -k_t\,b - c_t\,\dot x_t,
 
     t = t^*  while |t*| <= mu f_n (stick),   t = mu f_n t*/|t*|  otherwise (slip).
 
-The bristle b is elastic, so that stick is exact: below the limit nothing creeps. In slip the anchor follows such that the
-bristle carries exactly t; anchors are committed at the end of a converged step only, never inside an iteration.
-The tangent is the derivative of this return map.
+The bristle b is elastic, so that stick is exact: below the limit nothing creeps. Where k_t |b| would exceed mu f_n the anchor
+follows such that it is mu f_n, and this b enters t*. What loses energy is then never negative, because t is the projection
+of t* on a ball that -k_t b lies in. The damping alone never moves the anchor: if it did, every jolt would strain the
+bristle, and a slip front would run ahead the further, the longer the time steps are. Anchors are committed at the end of
+a converged step only, never inside an iteration. The tangent is the derivative of this return map.
 
 Source: J. C. Simo, T. A. Laursen, Comput. Struct. 42 (1992) 97-116, doi 10.1016/0045-7949(92)90540-G.
 """
@@ -19,14 +21,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.compiled import inlined, kernel
+from beam.compiled import embedded, kernel
 from beam.hermite import hermite_values
 
 Array = NDArray[np.float64]
 
 PLANE, CYLINDER = 0.0, 1.0
-PARAMETERS = 23
-"""kind, kn, cn, mu, kt, ct, normal (6:9), offset, centre (10:13), its velocity (13:16), radius, box low (17:20), high (20:23)."""
+PARAMETERS = 26
+"""kind, kn, cn, mu, kt, ct, normal (6:9), offset, centre (10:13), its velocity (13:16), radius, box low (17:20), high (20:23),
+turning about z: angular velocity, cosine and sine of the angle."""
 
 
 @kernel
@@ -52,30 +55,44 @@ def normal_tangent(n: Array, slope: float, curvature: float, K: Array) -> None:
 
 @kernel
 def friction_tangent(
-    n: Array, trial: Array, size: float, limit: float, stiff: float, coupling: float, K: Array
+    n: Array, b: Array, trial: Array, slid: bool, limit: float, kt: float, damping: float, coupling: float, K: Array
 ) -> None:
-    """Add the derivative of the return map: `stiff` = kt + ct factor, `coupling` = mu d(f_n)/d(gap)."""
-    for i in range(3):
-        for j in range(3):
+    """Add the derivative of the return map: `damping` = ct factor, `coupling` = mu d(f_n)/d(gap); `b` as it was before its return."""
+    reach = np.sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2])
+    size = np.sqrt(trial[0] * trial[0] + trial[1] * trial[1] + trial[2] * trial[2])
+    column = np.empty(3)
+    for j in range(3):
+        along = 0.0
+        for i in range(3):
             across = (1.0 if i == j else 0.0) - n[i] * n[j]
+            column[i] = (kt + damping) * across
+            if slid:
+                column[i] = limit / reach * (across - b[i] * b[j] / (reach * reach)) + damping * across
+                column[i] -= coupling * b[i] / reach * n[j]
+            along += trial[i] * column[i]
+        for i in range(3):
             if size > limit:
-                across = limit / size * (across - trial[i] * trial[j] / (size * size))
-                K[i, j] += coupling * trial[i] / size * n[j]
-            K[i, j] += stiff * across
+                column[i] = limit / size * (column[i] - trial[i] * along / (size * size))
+                column[i] += coupling * trial[i] / size * n[j]
+            K[i, j] += column[i]
 
 
 @kernel
 def bristle(
     p: Array, y0: float, y1: float, y2: float, a0: float, a1: float, a2: float, u0: float, u1: float, u2: float,
-    n0: float, n1: float, n2: float, closing: float,
-) -> tuple[float, float, float, float, float, float]:  # fmt: skip
-    """Bristle b from the anchor a to the point y, and trial friction -kt b - ct v, along the surface."""
+    n0: float, n1: float, n2: float, closing: float, limit: float,
+) -> tuple[float, float, float, float, float, float, bool]:  # fmt: skip
+    """Bristle b from the anchor a to the point y, and trial friction -kt b - ct v, along the surface; True if it drags its anchor."""
     along = n0 * (y0 - a0) + n1 * (y1 - a1) + n2 * (y2 - a2)
     b0, b1, b2 = y0 - a0 - along * n0, y1 - a1 - along * n1, y2 - a2 - along * n2
+    elastic = p[4] * np.sqrt(b0 * b0 + b1 * b1 + b2 * b2)
+    slid = elastic > limit
+    if slid:
+        b0, b1, b2 = limit / elastic * b0, limit / elastic * b1, limit / elastic * b2
     t0 = -p[4] * b0 - p[5] * (u0 + closing * n0)
     t1 = -p[4] * b1 - p[5] * (u1 + closing * n1)
     t2 = -p[4] * b2 - p[5] * (u2 + closing * n2)
-    return b0, b1, b2, t0, t1, t2
+    return b0, b1, b2, t0, t1, t2, slid
 
 
 @kernel
@@ -97,14 +114,14 @@ def out_of_reach(p: Array, q: Array, e: int, length: float) -> bool:
     return True
 
 
-@inlined
+@embedded
 def point_contact(
     p: Array, e: int, g: int, j: int, q: Array, v: Array, N: Array, anchors: Array, moved: Array, report: Array,
     weight: float,
 ) -> tuple[float, float, float, float, float, float, float, float]:  # fmt: skip
     """One contact point: f_n, normal, friction, distance from the axis; adds to `report`.
 
-    Writes the anchor to commit (`moved`, relative to the surface's centre). f_n is -1 without contact.
+    Writes the anchor to commit (`moved`, relative to the surface's centre, turning with it). f_n is -1 without contact.
     """
     N0, N1, N2, N3 = N[g, 0], N[g, 1], N[g, 2], N[g, 3]
     x0 = (N0 * q[e, 0] + N1 * q[e, 3]) + (N2 * q[e + 1, 0] + N3 * q[e + 1, 3])
@@ -114,8 +131,9 @@ def point_contact(
     if gap <= 0.0:
         moved[j, 0] = np.nan
         return -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    u0 = (N0 * v[e, 0] + N1 * v[e, 3]) + (N2 * v[e + 1, 0] + N3 * v[e + 1, 3]) - p[13]
-    u1 = (N0 * v[e, 1] + N1 * v[e, 4]) + (N2 * v[e + 1, 1] + N3 * v[e + 1, 4]) - p[14]
+    w0, w1 = p[13] - p[23] * (x1 - p[11]), p[14] + p[23] * (x0 - p[10])
+    u0 = (N0 * v[e, 0] + N1 * v[e, 3]) + (N2 * v[e + 1, 0] + N3 * v[e + 1, 3]) - w0
+    u1 = (N0 * v[e, 1] + N1 * v[e, 4]) + (N2 * v[e + 1, 1] + N3 * v[e + 1, 4]) - w1
     u2 = (N0 * v[e, 2] + N1 * v[e, 5]) + (N2 * v[e + 1, 2] + N3 * v[e + 1, 5]) - p[15]
     closing = -(n0 * u0 + n1 * u1 + n2 * u2)
     fn = max(p[1] * gap + p[2] * closing, 0.0)
@@ -125,29 +143,33 @@ def point_contact(
     if p[3] > 0.0:
         limit = p[3] * fn
         y0, y1, y2 = x0 - p[10], x1 - p[11], x2 - p[12]
-        a0, a1, a2 = anchors[j, 0], anchors[j, 1], anchors[j, 2]
+        a0, a1, a2 = (
+            anchors[j, 0] * p[24] - anchors[j, 1] * p[25],
+            anchors[j, 0] * p[25] + anchors[j, 1] * p[24],
+            anchors[j, 2],
+        )
         if a0 != a0:
             a0, a1, a2 = y0, y1, y2
-        b0, b1, b2, t0, t1, t2 = bristle(p, y0, y1, y2, a0, a1, a2, u0, u1, u2, n0, n1, n2, closing)
+        b0, b1, b2, t0, t1, t2, slid = bristle(p, y0, y1, y2, a0, a1, a2, u0, u1, u2, n0, n1, n2, closing, limit)
         size = np.sqrt(t0 * t0 + t1 * t1 + t2 * t2)
         if size > limit:
             scale = limit / size
             t0, t1, t2 = scale * t0, scale * t1, scale * t2
-            b0, b1, b2 = -t0 / p[4], -t1 / p[4], -t2 / p[4]
+        if slid:
             a0, a1, a2 = y0 - b0, y1 - b1, y2 - b2
-        moved[j, 0], moved[j, 1], moved[j, 2] = a0, a1, a2
+        moved[j, 0], moved[j, 1], moved[j, 2] = a0 * p[24] + a1 * p[25], a1 * p[24] - a0 * p[25], a2
         report[1] += weight * 0.5 * p[4] * (b0 * b0 + b1 * b1 + b2 * b2)
         report[3] -= weight * (t0 * u0 + t1 * u1 + t2 * u2)
     else:
         moved[j, 0] = np.nan
     f0, f1, f2 = fn * n0 + t0, fn * n1 + t1, fn * n2 + t2
-    report[4] += weight * (f0 * p[13] + f1 * p[14] + f2 * p[15])
+    report[4] += weight * (f0 * w0 + f1 * w1 + f2 * p[15])
     if gap > report[5]:
         report[5], report[6] = gap, e
     return fn, n0, n1, n2, t0, t1, t2, distance
 
 
-@inlined
+@embedded
 def point_tangent(
     p: Array, e: int, g: int, j: int, q: Array, v: Array, N: Array, anchors: Array, n: Array, distance: float,
     fn: float, factor: float, trial: Array, K: Array,
@@ -164,16 +186,25 @@ def point_tangent(
             u[i] += N[g, k] * v[e + k // 2, 3 * (k % 2) + i]
         x[i] -= p[10 + i]
         u[i] -= p[13 + i]
+    u[0] += p[23] * x[1]
+    u[1] -= p[23] * x[0]
     closing = -(n[0] * u[0] + n[1] * u[1] + n[2] * u[2])
-    a0, a1, a2 = anchors[j, 0], anchors[j, 1], anchors[j, 2]
+    a0, a1, a2 = (
+        anchors[j, 0] * p[24] - anchors[j, 1] * p[25],
+        anchors[j, 0] * p[25] + anchors[j, 1] * p[24],
+        anchors[j, 2],
+    )
     if a0 != a0:
         a0, a1, a2 = x[0], x[1], x[2]
-    _, _, _, t0, t1, t2 = bristle(
-        p, x[0], x[1], x[2], a0, a1, a2, u[0], u[1], u[2], n[0], n[1], n[2], closing
+    _, _, _, t0, t1, t2, slid = bristle(
+        p, x[0], x[1], x[2], a0, a1, a2, u[0], u[1], u[2], n[0], n[1], n[2], closing, p[3] * fn
     )  # fmt: skip
     trial[0], trial[1], trial[2] = t0, t1, t2
-    size = np.sqrt(t0 * t0 + t1 * t1 + t2 * t2)
-    friction_tangent(n, trial, size, p[3] * fn, p[4] + p[5] * factor, p[3] * slope, K)
+    x[0], x[1], x[2] = x[0] - a0, x[1] - a1, x[2] - a2
+    along = n[0] * x[0] + n[1] * x[1] + n[2] * x[2]
+    for i in range(3):
+        x[i] -= along * n[i]
+    friction_tangent(n, x, trial, slid, p[3] * fn, p[4], p[5] * factor, p[3] * slope, K)
 
 
 @kernel
@@ -183,7 +214,7 @@ def shapes_at(xs: Array, length: float, N: Array) -> None:
         hermite_values(xs[g], length, N[g])
 
 
-@inlined
+@embedded
 def contact_force(  # noqa: C901 - loops over components
     p: Array, begin: int, q: Array, v: Array, lengths: Array, xs: Array, ws: Array, anchors: Array, moved: Array,
     F: Array, nodal: Array, friction: Array, report: Array, cone: Array, collect: bool,
@@ -231,7 +262,7 @@ def contact_force(  # noqa: C901 - loops over components
                 scatter_contact(K, e, weight, N[g], D, U, L)
 
 
-@inlined
+@embedded
 def collect_point(
     e: int, j: int, x: float, force: Array, shear: Array, limit: float, nodal: Array, friction: Array, cone: Array
 ) -> None:
@@ -251,7 +282,7 @@ def contact_forces(
     F: Array, nodal: Array, friction: Array, reports: Array, cone: Array, collect: bool,
     want_tangent: bool, factor: float, D: Array, U: Array, L: Array,
 ) -> None:  # fmt: skip
-    """:func:`contact_force` of all surfaces: parameters `P` (surfaces, 23), contact points of surface k from `first`[k] on.
+    """:func:`contact_force` of all surfaces: parameters `P` (surfaces, 26), contact points of surface k from `first`[k] on.
 
     `anchors`, `moved` (n points, 3) and `cone` (n points,) hold the surfaces one after the other; `reports` (surfaces, 7).
     """

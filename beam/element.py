@@ -23,9 +23,23 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.compiled import inlined, kernel
+from beam.compiled import embedded, kernel
 from beam.hermite import hermite, hermite_mass
-from beam.point_force import interpolate, point_force, rotary_force
+from beam.point_force import (
+    DAMP,
+    END,
+    ENERGY,
+    FORCE,
+    LANES,
+    LENGTH,
+    NODAL,
+    REST,
+    ROW,
+    SECTION,
+    SHIFT,
+    STIFF,
+    point_forces,
+)
 from beam.rotation_vector import accelerate_on_branch, force_on_branch, move_on_branch, rotation_coefficients
 from beam.strain import strain
 
@@ -84,7 +98,11 @@ def shape_on_one_branch(q: Array, e: int, ends: Array) -> None:
 @kernel
 def gather(q: Array, k: int, H: Array, g: int, length: float, z: Array) -> None:
     """Write (theta, theta', r') at Gauss point `g` between the nodes `k` and k + 1 into `z` (9,)."""
-    z[0], z[1], z[2], z[3], z[4], z[5], z[6], z[7], z[8] = interpolate(q, k, H, g, length)
+    n1, n3, d0 = H[g, 1] * length, H[g, 3] * length, H[g, 4] / length
+    for i in range(3):
+        z[i] = H[g, 0] * q[k, 6 + i] + n1 * q[k, 9 + i] + (H[g, 2] * q[k + 1, 6 + i] + n3 * q[k + 1, 9 + i])
+        z[3 + i] = d0 * (q[k, 6 + i] - q[k + 1, 6 + i]) + (H[g, 5] * q[k, 9 + i] + H[g, 7] * q[k + 1, 9 + i])
+        z[6 + i] = d0 * (q[k, i] - q[k + 1, i]) + (H[g, 5] * q[k, 3 + i] + H[g, 7] * q[k + 1, 3 + i])
 
 
 @kernel
@@ -112,136 +130,156 @@ def reference_strains(q: Array, lengths: Array, x: Array, E0: Array) -> None:
             strain(z, a, b, c, E0[e, g])
 
 
-@kernel
-def add_inertia(a: Array, k: int, length: float, m: float, J: Array, mass: Array, F: Array) -> None:
-    """Add the constant part of the inertia between the nodes `k` and k + 1: the centre line's, and degree six of the section's."""
-    spare = DEGREE_SIX * length * (J[0] + J[1] + J[2]) / 3.0
-    for i in range(3):
-        for s in range(2):
-            row, line = 3 * s + i, m * length * (length if s == 1 else 1.0)
-            F[k, row] += line * (
-                (mass[s, 0] * a[k, i] + mass[s, 2] * a[k + 1, i])
-                + length * (mass[s, 1] * a[k, 3 + i] + mass[s, 3] * a[k + 1, 3 + i])
-            )
-            F[k + 1, row] += line * (
-                (mass[2 + s, 0] * a[k, i] + mass[2 + s, 2] * a[k + 1, i])
-                + length * (mass[2 + s, 1] * a[k, 3 + i] + mass[2 + s, 3] * a[k + 1, 3 + i])
-            )
-        f = spare * (2.0 * (a[k, 6 + i] - a[k + 1, 6 + i]) + length * (a[k, 9 + i] + a[k + 1, 9 + i]))
-        F[k, 6 + i] += 2.0 * f
-        F[k, 9 + i] += length * f
-        F[k + 1, 6 + i] -= 2.0 * f
-        F[k + 1, 9 + i] += length * f
+@embedded
+def element_inertia(
+    W: Array, k: int, length: float, m: float, spare: float
+) -> tuple[float, float, float, float, float, float]:
+    """Forces on r and r' of both nodes and the one of degree six that belong to the accelerations at `k`; their power."""
+    x0, x1, x2, x3 = W[k], length * W[k + 48], W[k + 1], length * W[k + 49]
+    turn = 2.0 * (W[k + 96] - W[k + 97]) + length * (W[k + 144] + W[k + 145])
+    M = UNIT_MASS
+    f0 = m * length * (M[0, 0] * x0 + M[0, 1] * x1 + (M[0, 2] * x2 + M[0, 3] * x3))
+    f1 = m * length * (M[1, 0] * x0 + M[1, 1] * x1 + (M[1, 2] * x2 + M[1, 3] * x3))
+    f2 = m * length * (M[2, 0] * x0 + M[2, 1] * x1 + (M[2, 2] * x2 + M[2, 3] * x3))
+    f3 = m * length * (M[3, 0] * x0 + M[3, 1] * x1 + (M[3, 2] * x2 + M[3, 3] * x3))
+    f = spare * length * turn
+    return f0, length * f1, f2, length * f3, f, (f0 * x0 + f1 * x1) + (f2 * x2 + f3 * x3) + f * turn
 
 
-@inlined
-def element_force(
-    q: Array, v: Array, a: Array, k: int, moving: bool, damped: bool, e: int, length: float, H: Array, w: Array,
-    C: Array, C_damping: Array, E0: Array, m: float, J: Array, mass: Array, F: Array, S: Array,
-) -> tuple[float, float, float]:  # fmt: skip
-    """Add the forces of element `e`, whose nodes are `k` and k + 1, to `F`, with inertia if it is `moving`; write `S`[e].
+@embedded
+def add_inertia(W: Array, m: float, spare: float) -> None:
+    """Add the constant part of the inertia of eight elements: the centre line's, and `spare` times degree six of the section's.
 
-    Returns the elastic energy [J], the power lost in damping [W] and the kinetic energy of turning [J].
+    The kinetic energy grows by the same part. `m` is the mass per length.
     """
-    energy, power, kinetic = 0.0, 0.0, 0.0
-    s0, s1, s2, w0, w1, w2, v0, v1, v2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for g in range(w.size):
-        t0, t1, t2, u0, u1, u2, d0, d1, d2 = interpolate(q, k, H, g, length)
-        if moving or damped:
-            s0, s1, s2, w0, w1, w2, v0, v1, v2 = interpolate(v, k, H, g, length)
-        ca, cb, cc, db, dc = rotation_coefficients(t0 * t0 + t1 * t1 + t2 * t2)
-        stored, lost, f0, f1, f2, f3, f4, f5, f6, f7, f8 = point_force(
-            t0, t1, t2, u0, u1, u2, d0, d1, d2, s0, s1, s2, w0, w1, w2, v0, v1, v2,
-            ca, cb, cc, db, dc, C, C_damping, E0, e, g, damped, S,
-        )  # fmt: skip
-        if moving:
-            turning, i0, i1, i2 = rotary_force(t0, t1, t2, s0, s1, s2, cb, cc, db, dc, a, k, H, g, length, J)
-            f0, f1, f2 = f0 + i0, f1 + i1, f2 + i2
-            kinetic += w[g] * length * turning
-        weight = w[g] * length
-        energy += weight * stored
-        power += weight * lost
-        for i in range(2):
-            n0, n1 = weight * H[g, 2 * i], weight * length * H[g, 2 * i + 1]
-            c0, c1 = w[g] * H[g, 4 + 2 * i], weight * H[g, 5 + 2 * i]
-            F[k + i, 0] += c0 * f6
-            F[k + i, 1] += c0 * f7
-            F[k + i, 2] += c0 * f8
-            F[k + i, 3] += c1 * f6
-            F[k + i, 4] += c1 * f7
-            F[k + i, 5] += c1 * f8
-            F[k + i, 6] += n0 * f0 + c0 * f3
-            F[k + i, 7] += n0 * f1 + c0 * f4
-            F[k + i, 8] += n0 * f2 + c0 * f5
-            F[k + i, 9] += n1 * f0 + c1 * f3
-            F[k + i, 10] += n1 * f1 + c1 * f4
-            F[k + i, 11] += n1 * f2 + c1 * f5
-    if moving:
-        add_inertia(a, k, length, m, J, mass, F)
-    return energy, power, kinetic
+    for i in range(3):
+        for l in range(LANES):
+            k, at, length = ROW * i + l, NODAL + LANES * i + l, W[LENGTH + l]
+            _, _, _, _, _, twice = element_inertia(W, k + 12 * ROW, length, m, spare)
+            f0, f1, f2, f3, f, _ = element_inertia(W, k + 24 * ROW, length, m, spare)
+            W[ENERGY + 2 * LANES + l] += 0.5 * twice
+            W[at] += f0
+            W[at + 24] += f1
+            W[at + 48] += 2.0 * f
+            W[at + 72] += length * f
+            W[at + 96] += f2
+            W[at + 120] += f3
+            W[at + 144] -= 2.0 * f
+            W[at + 168] += length * f
+
+
+@embedded
+def load_node(q: Array, v: Array, a: Array, node: int, l: int, W: Array) -> None:
+    """Copy a node into place `l`."""
+    for k in range(12):
+        W[ROW * k + l] = q[node, k]
+        W[ROW * (12 + k) + l] = v[node, k]
+        W[ROW * (24 + k) + l] = a[node, k]
 
 
 @kernel
-def move_element(q: Array, v: Array, a: Array, e: int, moving: bool, room: Array) -> None:
-    """Copy the nodes of element `e`, both on the branch of the first, into `room` (4, 2, 12); the last part is emptied."""
-    copy_ends(q, e, room[0])
-    copy_ends(v, e, room[1])
-    copy_ends(a, e, room[2])
-    theta, slope, rate, slope_rate = room[0, 1, 6:9], room[0, 1, 9:12], room[1, 1, 6:9], room[1, 1, 9:12]
+def load_moved_node(q: Array, v: Array, a: Array, node: int, moving: bool, W: Array, room: Array) -> None:
+    """Copy a node on its other branch into place 1."""
+    for k in range(12):
+        room[0, k], room[1, k], room[2, k] = q[node, k], v[node, k], a[node, k]
+    theta, slope, rate, slope_rate = room[0, 6:9], room[0, 9:12], room[1, 6:9], room[1, 9:12]
     if moving:
-        accelerate_on_branch(theta, slope, rate, slope_rate, room[2, 1, 6:9], room[2, 1, 9:12])
+        accelerate_on_branch(theta, slope, rate, slope_rate, room[2, 6:9], room[2, 9:12])
     move_on_branch(theta, slope, rate, slope_rate)
-    room[3] = 0.0
+    load_node(room[0:1], room[1:2], room[2:3], 0, 1, W)
+
+
+@embedded
+def elements_together(q: Array, begin: int, n: int) -> tuple[int, bool]:
+    """How many elements from `begin` on are worked on at once: eight, fewer before the end of the rod and before an element
+    on two branches, which is alone; True if it is such a one.
+    """
+    for count in range(min(LANES, n - begin)):
+        if on_two_branches(q, begin + count):
+            return max(count, 1), count == 0
+    return min(LANES, n - begin), False
+
+
+@embedded
+def empty_lanes(W: Array, C: Array, C_damping: Array, shift: Array) -> None:
+    """Begin a work array of :func:`beam.point_force.point_forces`: the section's law, a shift of (theta, theta', r')."""
+    for i in range(W.size):
+        W[i] = 0.0
+    for l in range(LANES):
+        for i in range(6):
+            for j in range(6):
+                k = LANES * (6 * i + j) + l
+                W[STIFF + k], W[DAMP + k] = C[i, j], C_damping[i, j]
+        for i in range(9):
+            W[SHIFT + LANES * i + l] = shift[i]
+        W[LENGTH + l], W[LENGTH + LANES + l] = 1.0, 1.0
 
 
 @kernel
-def return_force(q: Array, e: int, P: Array, F: Array) -> None:
-    """Add the forces `P` (2, 12) of an element whose second node was moved to the other branch to `F`."""
-    force_on_branch(q[e + 1, 6:9], q[e + 1, 9:12], P[1, 6:9], P[1, 9:12])
-    for i in range(2):
-        for k in range(12):
-            F[e + i, k] += P[i, k]
-
-
-@kernel
-def internal_force(
-    q: Array, v: Array, a: Array, moving: bool, damped: bool, lengths: Array, H: Array, w: Array, C: Array,
-    C_damping: Array, E0: Array, m: float, J: Array, mass: Array, F: Array, S: Array,
+def internal_force(  # noqa: C901 - loops over lanes and components
+    q: Array, v: Array, a: Array, moving: bool, lengths: Array, H: Array, w: Array, C: Array, C_damping: Array,
+    E0: Array, m: float, J: Array, F: Array, S: Array, shift: Array, factor: float, factor_a: float, f: Array,
 ) -> tuple[float, float, float]:  # fmt: skip
     """Add the internal force, and the inertia if `moving`, to `F` (n + 1, 12); write the section forces into `S` (n, 3, 6).
 
-    `H` from :func:`unit_shapes`, `w` weights, `mass` is :data:`UNIT_MASS`; damping is left out unless `damped`.
-    Returns the elastic energy [J], the power lost in damping [W] and the kinetic energy of turning [J] (without
-    degree six).
+    `H` from :func:`unit_shapes`, `w` weights; an empty `S` is left alone. If `f` (n, 3, 9) is not empty, it receives the nine
+    forces at the Gauss points instead, with (theta, theta', r') moved by `shift` (9,), their velocities by `factor` and
+    accelerations by `factor_a` times that. Returns the elastic energy [J], the power lost in damping [W] and the kinetic
+    energy [J].
     """
-    room = np.zeros((4, 2, 12))
+    n, nodal, unit, begin = lengths.size, f.size == 0, 1.0 if moving else 0.0, 0
+    W, room = np.empty(END), np.empty((3, 12))
+    empty_lanes(W, C, C_damping, shift)
+    spare = unit * DEGREE_SIX * (J[0] + J[1] + J[2]) / 3.0
     energy, power, kinetic = 0.0, 0.0, 0.0
-    for e in range(lengths.size):
-        moved = on_two_branches(q, e)
-        Q, V, A, P, k = q, v, a, F, e
+    curved = np.any(E0)
+    while begin < n:
+        count, moved = elements_together(q, begin, n)
+        for l in range(count):
+            load_node(q, v, a, begin + l, l, W)
+            W[LENGTH + l], W[LENGTH + LANES + l] = lengths[begin + l], 1.0 / lengths[begin + l]
         if moved:
-            move_element(q, v, a, e, moving, room)
-            Q, V, A, P, k = room[0], room[1], room[2], room[3], 0
-        stored, lost, turning = element_force(
-            Q, V, A, k, moving, damped, e, lengths[e], H, w, C, C_damping, E0, m, J, mass, P, S
-        )
-        energy += stored
-        power += lost
-        kinetic += turning
-        if moved:
-            return_force(q, e, P, F)
+            load_moved_node(q, v, a, begin + 1, moving, W, room)
+        else:
+            load_node(q, v, a, begin + count, count, W)
+        for i in range(NODAL, END):
+            W[i] = 0.0
+        for g in range(w.size):
+            if curved:
+                for l in range(count):
+                    for i in range(6):
+                        W[REST + LANES * i + l] = E0[begin + l, g, i]
+            point_forces(W, H, g, w[g], unit * J[0], unit * J[1], unit * J[2], factor, factor_a)
+            if S.size > 0:
+                for l in range(count):
+                    for i in range(6):
+                        S[begin + l, g, i] = W[SECTION + LANES * i + l]
+            if not nodal:
+                for l in range(count):
+                    for i in range(9):
+                        f[begin + l, g, i] = W[FORCE + LANES * i + l]
+        if moving:
+            add_inertia(W, m, spare)
+        for l in range(count):
+            energy += W[ENERGY + l]
+            power += W[ENERGY + LANES + l]
+            kinetic += W[ENERGY + 2 * LANES + l]
+        if nodal:
+            add_nodes(q, begin, count, moved, W, room, F)
+        begin += count
     return energy, power, kinetic
 
 
-def kinetic_energy(v: Array, lengths: Array, m: float, J: Array, mass: Array) -> float:
-    """Kinetic energy of the constant part of the inertia, see :func:`add_inertia` [J]."""
-    P = np.zeros_like(v)
-    constant_inertia(v, lengths, m, J, mass, P)
-    return 0.5 * float(np.vdot(v, P))
-
-
-@kernel
-def constant_inertia(a: Array, lengths: Array, m: float, J: Array, mass: Array, F: Array) -> None:
-    """:func:`add_inertia` of all elements."""
-    for e in range(lengths.size):
-        add_inertia(a, e, lengths[e], m, J, mass, F)
+@embedded
+def add_nodes(q: Array, begin: int, count: int, moved: bool, W: Array, room: Array, F: Array) -> None:
+    """Add the forces on the nodes of `count` elements to `F`; if the second node was `moved`, its forces come back first."""
+    if moved:
+        for k in range(12):
+            room[0, k] = W[NODAL + LANES * (12 + k)]
+        force_on_branch(q[begin + 1, 6:9], q[begin + 1, 9:12], room[0, 6:9], room[0, 9:12])
+        for k in range(12):
+            W[NODAL + LANES * (12 + k)] = room[0, k]
+    for l in range(count):
+        for k in range(12):
+            F[begin + l, k] += W[NODAL + LANES * k + l]
+            F[begin + l + 1, k] += W[NODAL + LANES * (12 + k) + l]

@@ -13,19 +13,20 @@ from beam.ancf_cable_element import CABLE_DOF, add_line_mass, cable_force, cable
 
 Array = NDArray[np.float64]
 
-_rod_force, _rod_kinetic_energy = element.internal_force, element.kinetic_energy
+_rod_force = element.internal_force
 _rod_tangent, _rod_mass = element_tangent.internal_tangent, element_tangent.add_mass
+_NO_SHIFT, _NOT_APART = np.zeros(9), np.zeros((0, 0, 0))
 
 
 def internal_force(
     q: Array, v: Array, a: Array, moving: bool, damped: bool, lengths: Array, H: Array, w: Array, C: Array,
     C_damping: Array, E0: Array, m: float, J: Array, mass: Array, F: Array, S: Array,
 ) -> tuple[float, float, float]:  # fmt: skip
-    """Internal force and inertia of either element; elastic energy, damping power, kinetic energy of turning."""
+    """Internal force and inertia of either element; elastic energy, damping power, kinetic energy (if `moving`)."""
     if q.shape[1] == CABLE_DOF:
         energy, power = cable_force(q, v, a, moving, damped, lengths, C, C_damping, m, mass, F, S)
-        return energy, power, 0.0
-    return _rod_force(q, v, a, moving, damped, lengths, H, w, C, C_damping, E0, m, J, mass, F, S)
+        return energy, power, line_kinetic_energy(v, lengths, m, mass) if moving else 0.0
+    return _rod_force(q, v, a, moving, lengths, H, w, C, C_damping, E0, m, J, F, S, _NO_SHIFT, 0.0, 0.0, _NOT_APART)
 
 
 def internal_tangent(
@@ -47,10 +48,3 @@ def add_mass(
         add_line_mass(factor, lengths, m, mass, D, U, L)
     else:
         _rod_mass(factor, lengths, w, H, m, J, mass, D, U, L)
-
-
-def kinetic_energy(v: Array, lengths: Array, m: float, J: Array, mass: Array) -> float:
-    """Kinetic energy of the constant part of the inertia of either element [J]."""
-    if v.shape[1] == CABLE_DOF:
-        return line_kinetic_energy(v, lengths, m, mass)
-    return _rod_kinetic_energy(v, lengths, m, J, mass)

@@ -7,48 +7,17 @@ branches of the rotation vector is differenced as a whole, along its 24 unknowns
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.compiled import inlined, kernel
-from beam.element import DEGREE_SIX, gather, internal_force, on_two_branches
-from beam.hermite import hermite
-from beam.strain import gauss_force, rotary_inertia
+from beam.compiled import kernel
+from beam.element import DEGREE_SIX, internal_force, on_two_branches
 
 Array = NDArray[np.float64]
 
 STEP = 1e-7
-
-
-@inlined
-def point_tangent(  # noqa: C901 - loops over components
-    z: Array, zdot: Array, acc: Array, moving: bool, factor: float, factor_a: float, C: Array, C_damping: Array,
-    E0: Array, J: Array, room: Array, G: Array,
-) -> None:  # fmt: skip
-    """Write the derivative of the nine forces by (theta, theta', r') into `G` (9, 9); `room` (7, 9) is work space."""
-    E, rate, S, here, ahead, still, turning = room[0], room[1], room[2], room[3], room[4], room[5], room[6]
-    for j in range(-1, 9):
-        zj, sj, aj = z[max(j, 0)], zdot[max(j, 0)], acc[min(max(j, 0), 2)]
-        if j >= 0:
-            z[j], zdot[j] = zj + STEP, sj + factor * STEP
-        gauss_force(z, zdot, C, C_damping, E0, E, rate, S, ahead)
-        for i in range(9):
-            turning[i] = 0.0
-        if moving and j < 3:
-            if j >= 0:
-                acc[j] = aj + factor_a * STEP
-            rotary_inertia(z, zdot, acc, J, turning)
-        if j < 0:
-            for i in range(9):
-                here[i], still[i] = ahead[i], turning[i]
-            continue
-        z[j], zdot[j] = zj, sj
-        if j < 3:
-            acc[j] = aj
-        for i in range(9):
-            G[i, j] = (ahead[i] - here[i]) / STEP
-            if j < 3:
-                G[i, j] += (turning[i] - still[i]) / STEP
 
 
 def internal_tangent(
@@ -56,34 +25,38 @@ def internal_tangent(
     w: Array, C: Array, C_damping: Array, E0: Array, m: float, J: Array, mass: Array, D: Array, U: Array, L: Array,
 ) -> None:  # fmt: skip
     """Add dF/dq + factor dF/dv + factor_a dF/da to the blocks: `D` (n + 1) on, `U` (n) above and `L` (n) below the diagonal."""
-    given = (w, C, C_damping, E0, m, J, mass, D, U, L)
-    rest = tangent_on_one_branch(q, v, a, moving, factor, factor_a, lengths, x, H, *given)
+    given = (moving, lengths, H, w, C, C_damping, E0, m, J)
+    f, S, unused = np.empty((10, lengths.size, w.size, 9)), np.empty_like(E0), np.empty((0, 12))
+    for j in range(-1, 9):
+        shift = STEP * (np.arange(9) == j)
+        internal_force(q, v, a, *given, unused, S, shift, factor, factor_a, f[j])
+    rest = add_points(f, q, moving, factor_a, lengths, H, w, m, J, mass, D, U, L)
     if rest:
         for e in [e for e in range(lengths.size) if on_two_branches(q, e)]:
-            difference_element(q, v, a, moving, factor, factor_a, e, lengths, H, *given)
+            difference_element(q, v, a, factor, factor_a, e, given, D, U, L)
 
 
 @kernel
-def tangent_on_one_branch(
-    q: Array, v: Array, a: Array, moving: bool, factor: float, factor_a: float, lengths: Array, x: Array, H: Array,
-    w: Array, C: Array, C_damping: Array, E0: Array, m: float, J: Array, mass: Array, D: Array, U: Array, L: Array,
+def add_points(
+    f: Array, q: Array, moving: bool, factor_a: float, lengths: Array, H: Array, w: Array, m: float, J: Array,
+    mass: Array, D: Array, U: Array, L: Array,
 ) -> int:  # fmt: skip
-    """:func:`internal_tangent` of the elements whose ends lie on one branch; returns how many are left."""
-    N, dN, Nz, rest = np.empty(4), np.empty(4), np.empty(12), 0
-    z, zdot, acc, G, room = np.empty(9), np.empty(9), np.zeros(3), np.empty((9, 9)), np.empty((7, 9))
+    """Add the differences of the forces `f` (10, n, points, 9), the last of them not shifted, and the constant mass.
+
+    Elements whose ends lie on two branches are left out; returns how many.
+    """
+    N, dN, G, rest = np.empty(4), np.empty(4), np.empty((9, 9)), 0
     for e in range(lengths.size):
         if on_two_branches(q, e):
             rest += 1
             continue
-        for g in range(x.size):
-            hermite(x[g], lengths[e], N, dN)
-            gather(q, e, H, g, lengths[e], z)
-            gather(v, e, H, g, lengths[e], zdot)
-            if moving:
-                gather(a, e, H, g, lengths[e], Nz)
-                for i in range(3):
-                    acc[i] = Nz[i]
-            point_tangent(z, zdot, acc, moving, factor, factor_a, C, C_damping, E0[e, g], J, room, G)
+        for g in range(w.size):
+            for k in range(4):
+                N[k] = H[g, k] * (lengths[e] if k % 2 else 1.0)
+                dN[k] = H[g, 4 + k] / (1.0 if k % 2 else lengths[e])
+            for j in range(9):
+                for i in range(9):
+                    G[i, j] = (f[j, e, g, i] - f[9, e, g, i]) / STEP
             scatter_tangent(G, e, w[g] * lengths[e], N, dN, D, U, L)
         if moving:
             add_constant_mass(factor_a, e, lengths[e], m, J, mass, D, U, L)
@@ -91,23 +64,27 @@ def tangent_on_one_branch(
 
 
 def difference_element(
-    q: Array, v: Array, a: Array, moving: bool, factor: float, factor_a: float, e: int, lengths: Array, H: Array,
-    w: Array, C: Array, C_damping: Array, E0: Array, m: float, J: Array, mass: Array, D: Array, U: Array, L: Array,
+    q: Array, v: Array, a: Array, factor: float, factor_a: float, e: int, given: tuple[Any, ...], D: Array, U: Array,
+    L: Array,
 ) -> None:  # fmt: skip
     """Tangent of one element by differences along its 24 unknowns."""
     Q, V, A = q[e : e + 2].copy(), v[e : e + 2].copy(), a[e : e + 2].copy()
-    rest = E0[e : e + 1]
-    given = (moving, True, lengths[e : e + 1], H, w, C, C_damping, rest, m, J, mass)
-    here, S = np.zeros((2, 12)), np.zeros_like(rest)
-    internal_force(Q, V, A, *given, here, S)
+    moving, lengths, H, w, C, C_damping, E0, m, J = given
+    rest, none = E0[e : e + 1], np.zeros((0, 0, 0))
+    law = (moving, lengths[e : e + 1], H, w, C, C_damping, rest, m, J)
+
+    def force() -> Array:
+        F = np.zeros((2, 12))
+        internal_force(Q, V, A, *law, F, np.empty_like(rest), np.zeros(9), 0.0, 0.0, none)
+        return F
+
+    here = force()
     for column in range(24):
         b, j = divmod(column, 12)
         kept = Q[b, j], V[b, j], A[b, j]
         Q[b, j], V[b, j], A[b, j] = kept[0] + STEP, kept[1] + factor * STEP, kept[2] + factor_a * STEP
-        ahead = np.zeros((2, 12))
-        internal_force(Q, V, A, *given, ahead, S)
+        first, second = (force() - here) / STEP
         Q[b, j], V[b, j], A[b, j] = kept
-        first, second = (ahead - here) / STEP
         (D if b == 0 else U)[e, :, j] += first
         (L[e] if b == 0 else D[e + 1])[:, j] += second
 

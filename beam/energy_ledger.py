@@ -20,12 +20,15 @@ from beam.rod_model import Forces, RodModel
 STORED = ("kinetic", "elastic", "gravity", "contact", "bristle")
 SPENT = ("damping_loss", "contact_damping_loss", "friction_loss")
 SECTION_LAW = "section_law"
+BUSHING, BUSHING_LOSS = "bushing", "bushing_damping_loss"
 ENERGIES = (*STORED, *SPENT, "drive_work")
 
 
 def energy_names(model: RodModel) -> tuple[str, ...]:
-    """Entries of the account of `model`, the work of the drives last; one more if it has a section law."""
-    return ENERGIES if model.law is None else (*STORED, *SPENT, SECTION_LAW, "drive_work")
+    """Entries of the account of `model`, the work of the drives last; more with a section law or bodies."""
+    law = () if model.law is None else (SECTION_LAW,)
+    stored, loss = ((), ()) if model.system is None else ((BUSHING,), (BUSHING_LOSS,))
+    return (*STORED, *stored, *SPENT, *loss, *law, "drive_work")
 
 
 @dataclass
@@ -39,8 +42,8 @@ class EnergyLedger:
     _friction_work: float = 0.0
     _bristle_first: float = 0.0
     _offset: float = 0.0
-    _powers: tuple[float, ...] = (0.0,) * 4
-    _last: tuple[float, ...] = (0.0,) * len(STORED)
+    _powers: tuple[float, ...] = (0.0,) * 5
+    _last: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         self.totals = dict.fromkeys(energy_names(self.model), 0.0)
@@ -56,11 +59,15 @@ class EnergyLedger:
     def step(self, h: float, forces: Forces) -> None:
         """Add the step of length `h` [s] that ended with these forces."""
         powers = self._power(forces)
-        damping, contact, friction, drive = (0.5 * h * (x + y) for x, y in zip(powers, self._powers, strict=True))
+        damping, contact, friction, drive, bushing = (
+            0.5 * h * (x + y) for x, y in zip(powers, self._powers, strict=True)
+        )
         self._powers = powers
         self._store(forces)
         self.totals["damping_loss"] += damping
         self.totals["contact_damping_loss"] += contact
+        if self.model.system is not None:
+            self.totals[BUSHING_LOSS] += bushing
         self._friction_work += friction
         self.totals["friction_loss"] = self._friction_work - (forces.bristle - self._bristle_first)
         law = forces.law_work
@@ -70,7 +77,9 @@ class EnergyLedger:
         stored = self._stored()
         exchanged = 0.5 * sum(abs(x - y) for x, y in zip(stored, self._last, strict=True))
         self._last = stored
-        self.throughput += max(abs(drive), exchanged, abs(damping) + abs(contact) + abs(friction) + abs(law))
+        self.throughput += max(
+            abs(drive), exchanged, abs(damping) + abs(contact) + abs(friction) + abs(law) + abs(bushing)
+        )
 
     def shift(self, forces: Forces, potential: float) -> None:
         """A rotation vector went to its other branch, where constant moments have the potential `potential` [J]."""
@@ -80,6 +89,7 @@ class EnergyLedger:
     def balance_error(self) -> float:
         """(stored + lost - work) over the throughput; positive if energy appeared from nowhere."""
         lost = sum(self.totals[name] for name in SPENT) + self.totals.get(SECTION_LAW, 0.0)
+        lost += self.totals.get(BUSHING_LOSS, 0.0)
         error = self._stored_sum() - self._first + lost - self.totals["drive_work"]
         return error / self.throughput if self.throughput > 0 else 0.0
 
@@ -89,13 +99,21 @@ class EnergyLedger:
         self.totals["gravity"] = forces.potential + self._offset
         self.totals["contact"] = forces.penalty
         self.totals["bristle"] = forces.bristle
+        if self.model.system is not None:
+            self.totals[BUSHING] = forces.bushing
 
-    def _power(self, forces: Forces) -> tuple[float, float, float, float]:
+    def _power(self, forces: Forces) -> tuple[float, ...]:
         drive = forces.held_power + forces.surface_power
-        return forces.damping_power, forces.contact_damping_power, forces.friction_power, drive
+        return (
+            forces.damping_power,
+            forces.contact_damping_power,
+            forces.friction_power,
+            drive,
+            forces.bushing_damping_power,
+        )
 
     def _stored(self) -> tuple[float, ...]:
-        return tuple(self.totals[name] for name in STORED)
+        return tuple(self.totals[name] for name in (*STORED, BUSHING) if name in self.totals)
 
     def _stored_sum(self) -> float:
         return sum(self._stored())

@@ -31,7 +31,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beam.body_step import body_step
+from beam.contact_state import ContactState, contact_states
 from beam.energy_ledger import EnergyLedger
+from beam.free_roller import FreeRollers
 from beam.linear_solve import Factor
 from beam.newton_step import (
     CONVERGED,
@@ -46,7 +49,7 @@ from beam.newton_step import (
     predict,
     residual_size,
 )
-from beam.rod_model import Blocks, Forces, RodModel
+from beam.rod_model import Forces, RodModel
 from beam.rotation_vector import turn_back
 from beam.section_memory import LONG, SectionMemory
 from beam.status import Outcome, Status
@@ -95,6 +98,7 @@ class StepSettings:
 KEPT = (
     "_state", "t", "counters", "outcome", "_anchors", "_anchors_before", "memory", "deepest", "step_error", "error_sum",
     "_last_iterations", "_worst", "_ticks", "_level", "_easy", "_matrix", "_known", "_factor_step", "_factor", "_held_force",
+    "rollers",
 )  # fmt: skip
 """What a run consists of besides its model and settings."""
 
@@ -131,6 +135,8 @@ class Integrator:
         Largest own error of a step in position, and the node and time of it.
     error_sum : float
         Sum of the own errors of all steps [m].
+    rollers : FreeRollers
+        Angles and speeds of the rollers that the cable turns.
     """
 
     def __init__(
@@ -145,7 +151,8 @@ class Integrator:
         self.model = model
         self.settings = settings or StepSettings()
         zero = np.zeros_like(model.q0)
-        start = (model.rod.columns(q), zero if v is None else model.rod.columns(v), zero, zero)
+        v = np.zeros_like(model.q0[: model.rod.nodes]) if v is None else v
+        start = (model.complete(q), model.complete(v, motion=True), zero, zero)
         self._state = StateArrays(*(np.array(x, dtype=float, order="C") for x in start))
         self._trial = StateArrays(*(np.zeros_like(x) for x in self._state))
         self.t = 0.0
@@ -157,6 +164,7 @@ class Integrator:
             anchors = model.forces(0.0, self.q, self.v, model.fresh_anchors(), friction=False).moved
         self._anchors = self._anchors_before = model.join(anchors)
         self.memory = memory
+        self.rollers = FreeRollers(model)
         self.deepest: tuple[float, str] = (0.0, "")
         self.step_error: tuple[float, str] = (0.0, "")
         self.error_sum = 0.0
@@ -174,15 +182,18 @@ class Integrator:
         self.ledger.start(self.forces)
 
     def _make_room(self) -> None:
-        model, nodes, dof = self.model, self.model.rod.nodes, self.model.rod.dof
-        blocks = Blocks.zeros(nodes, dof)
-        self._matrix = MatrixArrays(blocks.D, blocks.U, blocks.L, np.zeros((nodes, dof), dtype=np.int64))
+        model, nodes, dof = self.model, self.model.rows, self.model.rod.dof
+        blocks = model.blocks()
+        pivots = np.zeros((nodes, dof), dtype=np.int64)
+        self._matrix: Any = blocks.store
+        if blocks.store is None:
+            self._matrix = MatrixArrays(blocks.D, blocks.U, blocks.L, pivots)
         self._known, self._factor_step = False, 0.0
         self._factor: Factor | None = None
         self._F, self._R = np.zeros((nodes, dof)), np.zeros((nodes, dof))
         self._S, self._totals = np.zeros_like(model.rod.E0), np.zeros(TOTALS)
         self._moved, self._cone = np.empty_like(self._anchors), np.zeros(len(self._anchors))
-        self._reports, self._nodal = np.zeros((len(model.surfaces), 7)), np.zeros((nodes, 3))
+        self._reports, self._nodal = np.zeros((len(model.surfaces), 7)), np.zeros((model.rod.nodes, 3))
 
     def checkpoint(self) -> dict[str, Any]:
         """Everything that the rest of the run depends on, as arrays and plain values; see :mod:`beam.checkpoint`."""
@@ -234,10 +245,16 @@ class Integrator:
     def forces(self) -> Forces:
         """Everything about the forces of the present state, inertia contained; worked out when it is asked for."""
         if self._forces is None:
-            self._forces = self.model.forces(
-                self.t, self.q, self.v, self.model.split(self._anchors_before), a=self.a
-            )  # fmt: skip
+            before, rollers = self.model.split(self._anchors_before), self.rollers
+            self._forces = self.model.forces(self.t, self.q, self.v, before, a=self.a, turned=rollers.turned)
+            rollers.book(self.model, self.t, self.q, self.v, before, rollers.state, self._forces)
         return self._forces
+
+    @property
+    def contacts(self) -> list[ContactState]:
+        """Gap, normal force, friction and slip of every contact point, one entry for each surface."""
+        before = self.model.split(self._anchors_before)
+        return contact_states(self.model, self.t, self.q, self.v, before, self.rollers.turned)
 
     @property
     def reaction(self) -> Array:
@@ -274,22 +291,24 @@ class Integrator:
         am, af, gamma, beta = self.settings.coefficients
         one = self.settings
         rule = Rule(am, af, gamma, beta, h, one.relative, self._absolute, one.iterations)
-        forces = self._compiled_step(t, rule) if self.model.law is None else self._step_with_law(t, rule)
+        plain = self.model.law is None and not self.model.free_rollers
+        forces = self._compiled_step(t, rule) if plain else self._interpreted_step(t, rule)
         error, node = self._own_error(h, beta) if forces is not None else (0.0, 0)
         if forces is None or error > one.error:
             if forces is not None:
-                self._worst = f"The error of a step is largest at node {node}, {error:.1e} m,"
+                self._worst = f"The error of a step is largest at {self.model.row_name(node)}, {error:.1e} m,"
             self._cut(size, h)
             return False
         self._accept(t, size, forces)
         self.error_sum += error
         if error > self.step_error[0]:
-            self.step_error = (error, f"node {node}, t = {t:.3f} s")
+            self.step_error = (error, f"{self.model.row_name(node)}, t = {t:.3f} s")
         self.ledger.step(h, forces)
         return True
 
     def _own_error(self, h: float, beta: float) -> tuple[float, int]:
-        change = self._trial.w[:, 0:3] - self._state.w[:, 0:3]
+        moving = self.model.moving
+        change = self._trial.w[:moving, 0:3] - self._state.w[:moving, 0:3]
         squares = np.einsum("ij,ij->i", change, change)
         node = int(squares.argmax())
         return h * h * abs(beta - 1 / 6) * float(np.sqrt(squares[node])), node
@@ -308,8 +327,11 @@ class Integrator:
         self._state, self._trial = self._trial, self._state
         self.t = t
         self._forces = None
-        if self.model.law is not None:
+        if self.model.law is not None or self.model.free_rollers:
             self._forces, self.memory = forces, forces.memory
+        self.rollers.commit()
+        if self.model.system is not None:
+            self.model.system.settle(*self._state[1:])
         i, k = self.model.held.T
         self._held_force = forces.F[i, k]
         self._anchors_before, self._anchors = self._anchors, self.model.join(forces.moved)
@@ -328,10 +350,18 @@ class Integrator:
             model.surface_parameters(t), model.first, model.xs, model.ws, self._anchors, self._moved, self._reports,
             self._nodal, self._cone,
         )  # fmt: skip
-        code, iterations, factored, self._known = newton_step(
-            model.arrays, contact, model.external, model.held, model.held_values(t), self._state, self._trial,
-            self._matrix, self._known and self._factor_step == rule.h, rule, self._F, self._S, self._R, self._totals,
-        )  # fmt: skip
+        known = self._known and self._factor_step == rule.h
+        parts = Forces(self._F, self._S, [self._moved], self._nodal, self._nodal, [])
+        if model.system is None:
+            code, iterations, factored, self._known = newton_step(
+                model.arrays, contact, model.external, model.held, model.held_values(t), self._state, self._trial,
+                self._matrix, known, rule, self._F, self._S, self._R, self._totals,
+            )  # fmt: skip
+        else:
+            code, iterations, factored, self._known = body_step(
+                model, model.system, t, contact, self._state, self._trial, self._matrix, known, rule, parts, self._R,
+                self._totals,
+            )  # fmt: skip
         self._factor_step = rule.h
         self.counters.iterations += iterations
         self.counters.factorisations += factored
@@ -340,25 +370,26 @@ class Integrator:
             self._failed(code, t)
             return None
         elastic, damping, kinetic, power, potential = self._totals.tolist()
-        out = Forces(
-            self._F, self._S, [self._moved], self._nodal, self._nodal, [], elastic=elastic, kinetic=kinetic,
-            potential=potential, damping_power=damping, held_power=power,
-        )  # fmt: skip
-        model.add_reports(out, self._reports)
-        return out
+        parts.elastic, parts.potential, parts.damping_power = elastic, potential, damping
+        parts.kinetic += kinetic
+        parts.held_power += power
+        model.add_reports(parts, self._reports)
+        return parts
 
-    def _step_with_law(self, t: float, rule: Rule) -> Forces | None:
-        """The same iteration as :func:`beam.newton_step.newton_step`, for a section law that is Python."""
-        model, new = self.model, self._trial
+    def _interpreted_step(self, t: float, rule: Rule) -> Forces | None:
+        """The same iteration as :func:`beam.newton_step.newton_step`, for a section law that is Python and for free rollers."""
+        model, new, rollers = self.model, self._trial, self.rollers
         predict(self._state, new, rule)
+        rollers.predict(rule)
         model.prescribe(t, new.q, new.v, new.w)
         start = last = np.inf
         fresh = 0
         for k in range(rule.iterations):
             forces = model.forces(
-                t, new.q, new.v, self.anchors, memory=self.memory, dt=rule.h, a=new.w
+                t, new.q, new.v, self.anchors, memory=self.memory, dt=rule.h, a=new.w, turned=rollers.turned_trial
             )  # fmt: skip
-            size = (1 - rule.af) * residual_size(forces.F, model.held, self._R)
+            size = residual_size(forces.F, model.held, self._R)
+            size = (1 - rule.af) * float(np.hypot(size, rollers.size(model, t, new, self.anchors)))
             self.counters.iterations += 1
             if not np.isfinite(size):
                 self._failed(NOT_FINITE, t)
@@ -366,6 +397,7 @@ class Integrator:
             start = size if k == 0 else start
             if size <= rule.relative * start + rule.absolute:
                 self._last_iterations = k + 1
+                rollers.book(model, t, new.q, new.v, self.anchors, rollers.trial, forces)
                 return forces
             if size > 1e6 * max(start, 1.0):
                 break
@@ -375,22 +407,27 @@ class Integrator:
                 if self._factor is None:
                     break
             last = size
-            correct(new, self._factor.solve(self._R), rule)
+            delta, turn = rollers.solve(self._factor.solve, self._R)
+            correct(new, delta, rule)
+            rollers.correct(turn, rule)
         self._failed(-1, t)
         return None
 
     def _renew(self, t: float, rule: Rule) -> None:
         model, new = self.model, self._trial
-        blocks = Blocks.zeros(model.rod.nodes, model.rod.dof)
+        blocks = model.blocks()
         speed = rule.gamma / (rule.beta * rule.h)
         acceleration = (1 - rule.am) / ((1 - rule.af) * rule.beta * rule.h**2)
         model.forces(
             t, new.q, new.v, self.anchors, blocks=blocks, factor=speed, memory=self.memory, dt=rule.h, a=new.w,
-            factor_a=acceleration,
+            factor_a=acceleration, turned=self.rollers.turned_trial,
         )  # fmt: skip
         model.fix(blocks)
         factor = Factor(blocks)
         self._factor = factor if factor.singular_node < 0 else None
+        if self._factor is not None:
+            self.rollers.border(model, t, new, self.anchors, rule)
+            self.rollers.bordered(factor.solve)
         self._factor_step = rule.h
         self.counters.factorisations += 1
 
@@ -399,14 +436,18 @@ class Integrator:
         model, state = self.model, self._state
         given = LONG if self.memory is None else None
         for _ in range(3):
-            blocks = Blocks.zeros(model.rod.nodes, model.rod.dof)
+            blocks = model.blocks()
             self._forces = model.forces(
                 0.0, state.q, state.v, self.anchors, memory=self.memory, dt=given, a=state.w, blocks=blocks, factor_a=1e9
             )  # fmt: skip
-            for part in (blocks.D, blocks.U, blocks.L):
-                part /= 1e9
+            blocks.divide(1e9)
             model.fix(blocks)
-            state.w[:] -= np.where(model.free, Factor(blocks).solve(np.where(model.free, self._forces.F, 0.0)), 0.0)
+            if model.system is not None:
+                model.system.accelerate_joints(state.q, state.v, state.w, self._forces.F, 1e9)
+            delta = np.where(model.free, Factor(blocks).solve(np.where(model.free, self._forces.F, 0.0)), 0.0)
+            state.w[:] -= delta
+            if model.system is not None:
+                model.system.take_multipliers(delta / 1e9, state.q, state.w)
         state.a[:] = state.w
         self._forces = model.forces(
             0.0, state.q, state.v, self.anchors, memory=self.memory, dt=given, a=state.w
@@ -420,19 +461,22 @@ class Integrator:
         if code == NOT_FINITE:
             broken = np.argwhere(~np.isfinite(R))
             node = int(broken[0, 0]) if len(broken) else 0
-            detail = f"It appeared at node {node} in the step to t = {t:.4f} s; the state before it is kept."
+            detail = (
+                f"It appeared at {self.model.row_name(node)} in the step to t = {t:.4f} s; the state before it is kept."
+            )
             self.outcome = Outcome(Status.NOT_FINITE, detail)
             return
         node = int(np.argmax(np.abs(R[:, 0:3]).max(axis=1)))
         worst = float(np.abs(R[node, 0:3]).max())
-        self._worst = f"The residual is largest at node {node}{self._touching(node)}, {worst:.2e} N,"
+        self._worst = f"The residual is largest at {self.model.row_name(node)}{self._touching(node)}, {worst:.2e} N,"
 
     def _touching(self, node: int) -> str:
         """Which surfaces the elements of a node touched in the last iteration."""
-        if self.model.law is not None:
+        turned, q = self.rollers.turned_trial, self._trial.q
+        if not np.isfinite(q).all():
             return ""
-        names = []
-        for surface, moved in zip(self.model.surfaces, self.model.split(self._moved), strict=True):
-            if surface.law.friction > 0 and np.isfinite(moved[max(node - 1, 0) : node + 1, :, 0]).any():
-                names.append(surface.name)
+        states = contact_states(self.model, self.t, q, self._trial.v, self.anchors, turned)
+        near = slice(max(node - 1, 0), node + 1)
+        pairs = zip(self.model.surfaces, states, strict=True)
+        names = [surface.name for surface, state in pairs if state.touching[near].any()]
         return f" (on {' and '.join(names)})" if names else ""

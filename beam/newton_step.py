@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from beam.block_tridiagonal import invert_chain, sweep_chain
 from beam.compiled import kernel
 from beam.contact_force import contact_forces
-from beam.element_choice import internal_force, internal_tangent, kinetic_energy
+from beam.contact_lanes import contact_residual
+from beam.element_choice import internal_force, internal_tangent
 
 Array = NDArray[np.float64]
 
@@ -115,11 +116,9 @@ def evaluate(
         state.q, state.v, state.w, True, rod.damped, rod.lengths, rod.H, rod.w, rod.C, rod.C_damping, rod.E0,
         rod.m, rod.J, rod.mass, F, S,
     )  # fmt: skip
-    none = rod.E0
-    contact_forces(
+    contact_residual(
         contact.P, contact.first, contact.xs, contact.ws, state.q, state.v, rod.lengths, contact.anchors,
-        contact.moved, F, contact.nodal, contact.nodal, contact.reports, contact.cone, False, False, 0.0,
-        none, none, none,
+        contact.moved, F, contact.reports,
     )  # fmt: skip
 
 
@@ -195,11 +194,8 @@ def move(q: Array, v: Array, a: Array, w: Array, delta: Array, speed: float, alg
             w[i, k] -= true * d
 
 
-def account(
-    rod: RodArrays, external: Array, held: NDArray[np.int64], new: StateArrays, F: Array, totals: Array
-) -> None:
+def account(external: Array, held: NDArray[np.int64], new: StateArrays, F: Array, totals: Array) -> None:
     """Complete `totals` for an accepted state."""
-    totals[2] += kinetic_energy(new.v, rod.lengths, rod.m, rod.J, rod.mass)
     i, k = held.T
     totals[3] = F[i, k] @ new.v[i, k]
     totals[4] = -np.vdot(external, new.q)
@@ -224,7 +220,7 @@ def newton_step(
         if k == 0:
             start = size
         if size <= rule.relative * start + rule.absolute:
-            account(rod, external, held, new, F, totals)
+            account(external, held, new, F, totals)
             return CONVERGED, k + 1, factored, known
         if size > 1e6 * max(start, 1.0):
             return NOT_CONVERGED, k + 1, factored, known

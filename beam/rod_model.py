@@ -8,13 +8,18 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from beam.block_sparse import fix_store
+from beam.bushing import Bushing
 from beam.contact_force import PARAMETERS, contact_forces
 from beam.element import DOF, UNIT_MASS, unit_shapes
-from beam.element_choice import add_mass, internal_force, internal_tangent, kinetic_energy
+from beam.element_choice import add_mass, internal_force, internal_tangent
 from beam.hermite import gauss_points
-from beam.motion import Turn
+from beam.joint import Joint
+from beam.multibody import BODY_FIELDS, Multibody
 from beam.newton_step import RodArrays, fix_blocks
+from beam.rigid_body import RigidBody
 from beam.rod import GAUSS_W, GAUSS_X, Rod
+from beam.rod_forces import Blocks, Forces
 from beam.section_law import SectionLaw
 from beam.section_memory import (
     LONG,
@@ -24,67 +29,11 @@ from beam.section_memory import (
     section_force_tangent,
     strains,
 )
-from beam.surface import Surface, Travel
+from beam.support import Support
+from beam.surface import FreeTurn, Surface, turn_surface
 from geometry.errors import SpecError
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Support:
-    """Node (negative: from the end) whose fields are held at their starting values.
-
-    `travel` moves its position, `turn` its section about a fixed axis, from theta = 0 at the start.
-    """
-
-    node: int
-    held: tuple[str, ...] = ("r", "theta")
-    travel: Travel | None = None
-    turn: Turn | None = None
-
-
-@dataclass
-class Forces:
-    """Everything that one evaluation of F yields; energies in J, powers in W.
-
-    With a section law: the `memory` to commit if the step is accepted, and the work that the law takes up in it [J].
-    """
-
-    F: Array
-    S: Array
-    moved: list[Array]
-    contact: Array
-    friction: Array
-    cones: list[Array]
-    elastic: float = 0.0
-    kinetic: float = 0.0
-    potential: float = 0.0
-    damping_power: float = 0.0
-    held_power: float = 0.0
-    penalty: float = 0.0
-    bristle: float = 0.0
-    contact_damping_power: float = 0.0
-    friction_power: float = 0.0
-    surface_power: float = 0.0
-    penetration: float = 0.0
-    penetration_at: str = ""
-    memory: SectionMemory | None = None
-    law_work: float = 0.0
-
-
-@dataclass
-class Blocks:
-    """Block-tridiagonal matrix: `D` (n, dof, dof), `U` and `L` (n - 1, dof, dof)."""
-
-    D: Array
-    U: Array
-    L: Array
-
-    @classmethod
-    def zeros(cls, nodes: int, dof: int = DOF) -> Blocks:
-        """Empty matrix of `nodes` block rows."""
-        shape = (dof, dof)
-        return cls(np.zeros((nodes, *shape)), np.zeros((nodes - 1, *shape)), np.zeros((nodes - 1, *shape)))
 
 
 @dataclass
@@ -104,6 +53,10 @@ class RodModel:
     surfaces : sequence of Plane or Cylinder
     law : SectionLaw, optional
         Section forces with internal state, added to the linear law of the rod.
+    bodies, bushings, joints : sequences of RigidBody, Bushing and Joint
+        See :mod:`beam.multibody`; the state then has rows for bodies and joints after those of the nodes.
+    body_surfaces : sequence of Plane or Cylinder
+        Touched by the points of the bodies, as `surfaces` are by the cable.
     """
 
     rod: Rod
@@ -113,6 +66,10 @@ class RodModel:
     load: Array | None = None
     surfaces: Sequence[Surface] = ()
     law: SectionLaw | None = None
+    bodies: Sequence[RigidBody] = ()
+    bushings: Sequence[Bushing] = ()
+    joints: Sequence[Joint] = ()
+    body_surfaces: Sequence[Surface] = ()
     free: NDArray[np.bool_] = field(init=False)
     weight: Array = field(init=False)
 
@@ -127,16 +84,21 @@ class RodModel:
         shape = (self.rod.nodes, self.rod.dof)
         if self.q0.shape != shape or (self.load is not None and self.load.shape != shape):
             raise SpecError(f"the starting shape and the load of a rod with {shape[0]} nodes must have shape {shape}.")
-        self.free = np.ones(shape, dtype=bool)
+        self.system = self._with_bodies()
+        self.free = np.ones(shape, dtype=bool) if self.system is None else self.system.used.copy()
         for support in self.supports:
+            row = self.row(support.node)
             for name in support.held:
-                self.free[support.node, self.rod.slots(name, self.q0[support.node])] = False
+                self.free[row, self._slots(name, row)] = False
         self.weight = self.rod.weight(np.asarray(self.gravity, dtype=float))
         if self.rod.dof != DOF and any(support.turn is not None for support in self.supports):
             raise SpecError(
                 "a section of an ANCF cable cannot be turned by a support, it has no rotations: take the rod."
             )
         self._external = self.weight if self.load is None else self.weight + self.load
+        if self.system is not None:
+            self.weight = self.system.external(np.asarray(self.gravity, dtype=float), self.weight)
+            self._external = self.system.external(np.asarray(self.gravity, dtype=float), self._external)
         self.held = np.argwhere(~self.free)
         rod = self.rod
         self.arrays = RodArrays(
@@ -147,7 +109,64 @@ class RodModel:
         self.first = np.concatenate([[0], np.cumsum([s.points for s in self.surfaces])]).astype(np.int64)
         self.xs = np.concatenate([np.empty(0), *(x for x, _ in points)])
         self.ws = np.concatenate([np.empty(0), *(w for _, w in points)])
+        self.free_rollers = [k for k, s in enumerate(self.surfaces) if isinstance(getattr(s, "turn", None), FreeTurn)]
         self._empty = Blocks.zeros(2, self.rod.dof)
+        if self.system is not None:
+            self.system.check(self.free, len(self.free_rollers))
+
+    def _with_bodies(self) -> Multibody | None:
+        if not (self.bodies or self.bushings or self.joints):
+            return None
+        if self.rod.dof != DOF:
+            raise SpecError("an ANCF cable has no rotations to which bodies could be attached: take the rod.")
+        system = Multibody(self.q0, self.bodies, self.bushings, self.joints, self.body_surfaces)
+        self.q0 = system.start
+        return system
+
+    @property
+    def rows(self) -> int:
+        """Rows of the state: nodes, bodies, joints."""
+        return self.rod.nodes if self.system is None else self.system.rows
+
+    @property
+    def moving(self) -> int:
+        """Rows that have a position: nodes and bodies."""
+        return self.rod.nodes + len(self.bodies)
+
+    def row(self, node: int | str) -> int:
+        """Row of the state of a node (negative: from the end) or of a body."""
+        if self.system is None and not isinstance(node, str):
+            return node % self.rod.nodes
+        if self.system is None:
+            raise SpecError(f"a support refers to the body {node!r}; the model has no bodies.")
+        return self.system.row(node, "a support")
+
+    def row_name(self, row: int) -> str:
+        """What a row of the state is, for messages."""
+        return f"node {row}" if self.system is None else self.system.row_name(row)
+
+    def _slots(self, name: str, row: int) -> slice | list[int]:
+        if row < self.rod.nodes:
+            return self.rod.slots(name, self.q0[row])
+        if name not in BODY_FIELDS:
+            raise SpecError(
+                f"{self.row_name(row)} has no field {name!r} that could be held; choose from {', '.join(BODY_FIELDS)}."
+            )
+        return BODY_FIELDS[name]
+
+    def blocks(self) -> Blocks:
+        """An empty matrix with the couplings of this model."""
+        if self.system is None:
+            return Blocks.zeros(self.rod.nodes, self.rod.dof)
+        return Blocks.of_pattern(self.system.pattern)
+
+    def complete(self, q: Array, motion: bool = False) -> Array:
+        """State (or, with `motion`, velocities) of all rows, of the nodes alone: bodies as they are at the start."""
+        q = self.rod.columns(np.asarray(q, dtype=float))
+        if self.system is None or len(q) != self.rod.nodes:
+            return q
+        rest = self.system.motion if motion else self.system.start
+        return np.concatenate([q, rest[self.rod.nodes :]])
 
     @property
     def external(self) -> Array:
@@ -156,7 +175,10 @@ class RodModel:
 
     def fresh_anchors(self) -> list[Array]:
         """Friction anchors before any contact, one array (n, points, 3) per surface."""
-        return [np.full((self.rod.lengths.size, s.points, 3), np.nan) for s in self.surfaces]
+        anchors = [np.full((self.rod.lengths.size, s.points, 3), np.nan) for s in self.surfaces]
+        if self.system is not None:
+            anchors += [np.full((1, len(self.system.points.rows), 3), np.nan) for _ in self.body_surfaces]
+        return anchors
 
     def fresh_memory(self) -> SectionMemory | None:
         """Memory of a rod that was never strained; None without a section law."""
@@ -177,7 +199,7 @@ class RodModel:
             row = {(int(i), int(k)): j for j, (i, k) in enumerate(self.held)}
             self._driven = []
             for support in self.supports:
-                node = support.node % self.rod.nodes
+                node = self.row(support.node)
                 for motion, slot in ((support.travel, 0), (support.turn, 6)):
                     rows = [(row[node, slot + k], k) for k in range(3) if (node, slot + k) in row]
                     if motion is not None and rows:
@@ -191,13 +213,16 @@ class RodModel:
             values[here, 2] = ddu[axes]
         return values
 
-    def surface_parameters(self, t: float, friction: bool = True) -> Array:
-        """What the contact kernel reads of the surfaces at time `t`, (surfaces, 23)."""
+    def surface_parameters(self, t: float, friction: bool = True, turned: Array | None = None) -> Array:
+        """What the contact kernel reads of the surfaces at time `t`, (surfaces, 26); `turned` (free rollers, 2) angle, speed."""
         P = np.empty((len(self.surfaces), PARAMETERS))
         for row, surface in zip(P, self.surfaces, strict=True):
             row[:] = surface.parameters(t)
         if not friction:
             P[:, 3] = 0.0
+        if turned is not None:
+            for k, (angle, speed) in zip(self.free_rollers, turned, strict=True):
+                turn_surface(P[k], angle, speed)
         return P
 
     def join(self, anchors: list[Array]) -> Array:
@@ -208,18 +233,22 @@ class RodModel:
         """The opposite of :meth:`join`, as views; also of arrays (n points,)."""
         n = self.rod.lengths.size
         pairs = zip(self.first[:-1], self.first[1:], strict=True)
-        return [joined[n * i : n * j].reshape(n, j - i, *joined.shape[1:]) for i, j in pairs]
+        parts = [joined[n * i : n * j].reshape(n, j - i, *joined.shape[1:]) for i, j in pairs]
+        if self.system is not None and self.body_surfaces:
+            rest = joined[n * self.first[-1] :]
+            parts += [*rest.reshape(len(self.body_surfaces), 1, -1, *joined.shape[1:])]
+        return parts
 
     def forces(
         self, t: float, q: Array, v: Array, anchors: list[Array], friction: bool = True,
         blocks: Blocks | None = None, factor: float = 0.0,
         memory: SectionMemory | None = None, dt: float | None = LONG,
-        a: Array | None = None, factor_a: float = 0.0,
+        a: Array | None = None, factor_a: float = 0.0, turned: Array | None = None,
     ) -> Forces:  # fmt: skip
         """F(q, v, t), with the accelerations `a` M(q) a + F; with `blocks`, also its dF/dq + factor dF/dv + factor_a dF/da.
 
         A section law goes in the time `dt` [s] from `memory` (fresh if not given) to the strains of `q`; with None, the
-        forces that it has in `memory` are taken as they are.
+        forces that it has in `memory` are taken as they are. `turned` (free rollers, 2) holds their angles and speeds.
         """
         rod, nodes, n = self.arrays, self.rod.nodes, self.rod.lengths.size
         joined = self.join(anchors)
@@ -237,8 +266,7 @@ class RodModel:
         matrix = self._empty
         if blocks is not None:
             matrix = blocks
-            for part in (blocks.D, blocks.U, blocks.L):
-                part[:] = 0.0
+            blocks.clear()
             internal_tangent(
                 q, v, w, moving, factor, factor_a, rod.lengths, rod.x, rod.H, rod.w, *law, blocks.D, blocks.U, blocks.L
             )
@@ -246,15 +274,16 @@ class RodModel:
             self._add_law(self.law, q, blocks, memory, dt, out)
         reports = np.zeros((len(self.surfaces), 7))
         contact_forces(
-            self.surface_parameters(t, friction), self.first, self.xs, self.ws, q, v, rod.lengths, joined, moved, out.F,
+            self.surface_parameters(t, friction, turned), self.first, self.xs, self.ws, q, v, rod.lengths, joined, moved, out.F,
             out.contact, out.friction, reports, cone, True, blocks is not None, factor, matrix.D, matrix.U, matrix.L,
         )  # fmt: skip
         self.add_reports(out, reports)
-        if moving:
-            out.kinetic += kinetic_energy(v, rod.lengths, rod.m, rod.J, rod.mass)
+        if self.system is not None:
+            begin = n * int(self.first[-1])
+            self.system.add_forces(t, q, v, a, joined, moved, begin, friction, blocks, factor, factor_a, out)
         out.potential = -float(np.vdot(self._external, q))
         i, k = self.held.T
-        out.held_power = float(out.F[i, k] @ v[i, k])
+        out.held_power += float(out.F[i, k] @ v[i, k])
         return out
 
     def _add_law(
@@ -299,16 +328,24 @@ class RodModel:
         out = np.zeros_like(a)
         law = (0 * rod.C, 0 * rod.C, rod.E0, rod.m, rod.J, rod.mass)
         internal_force(q, v, a, True, False, rod.lengths, rod.H, rod.w, *law, out, np.empty_like(rod.E0))
+        if self.system is not None:
+            self.system.inertia(a, out)
         return out
 
     def add_mass(self, factor: float, blocks: Blocks) -> None:
         """Add factor M of the unturned sections to the blocks."""
         rod = self.arrays
         add_mass(factor, rod.lengths, rod.w, rod.H, rod.m, rod.J, rod.mass, blocks.D, blocks.U, blocks.L)
+        if self.system is not None:
+            self.system.add_mass(factor, blocks)
 
     def fix(self, blocks: Blocks) -> None:
         """Replace rows and columns of held unknowns by the identity."""
-        fix_blocks(self.held, blocks.D, blocks.U, blocks.L)
+        if blocks.store is None or blocks.pattern is None:
+            fix_blocks(self.held, blocks.D, blocks.U, blocks.L)
+        else:
+            at = blocks.pattern
+            fix_store(self.held, blocks.store, at.in_row, at.in_row_first, at.in_column, at.in_column_first)
 
     def potential(self, q: Array) -> float:
         """Energy of the weight [J], zero at the origin."""

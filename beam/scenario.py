@@ -68,6 +68,19 @@ class Contact(_Part):
     damping_time: Annotated[Entry, quantity("s", 0.0, 1.0)]
 
 
+class Roller(_Part):
+    """How the roller turns; with nothing given it turns freely without inertia, bearing friction or friction on the cable.
+
+    With `friction` alone it is a drum that does not turn; with `inertia`, and `bearing_moment`, the cable turns it; with
+    `surface_speed` it is driven, positive if its top runs towards the shearer, with the ramp of the drive.
+    """
+
+    friction: Annotated[Entry, quantity("1", 0.0, 2.0)] | None = None
+    inertia: Annotated[Entry, quantity("kg m^2", 1e-6, 1e6)] | None = None
+    bearing_moment: Annotated[Entry, quantity("N m", 0.0, 1e6)] | None = None
+    surface_speed: Annotated[Entry, quantity("m/s", -10.0, 10.0)] | None = None
+
+
 class TimeSpan(_Part):
     """Length of the run, output interval, largest step."""
 
@@ -103,12 +116,13 @@ class Scenario(_Part):
     layout: Layout
     drive: Drive
     contact: Contact
+    roller: Roller = Roller()
     time: TimeSpan
     published_results: PublishedResults = PublishedResults()
 
     @model_validator(mode="after")
     def _can_be_true(self) -> Scenario:
-        for check in (self._time_fault, self._shape_fault, self._stroke_fault, self._mesh_fault):
+        for check in (self._time_fault, self._shape_fault, self._stroke_fault, self._mesh_fault, self._roller_fault):
             fault = check()
             if fault:
                 raise SpecError(fault)
@@ -146,6 +160,16 @@ class Scenario(_Part):
         if on_bend < 5:
             needed = int(np.ceil(5 * self.cable.length.value / self.bend_length))
             return f"{count:g} elements put {on_bend:.1f} on the bend, too few to bend round it: use at least {needed}."
+        return ""
+
+    def _roller_fault(self) -> str:
+        roller = self.roller
+        if roller.friction is None and (roller.inertia or roller.bearing_moment or roller.surface_speed):
+            return "a roller with inertia, bearing moment or surface speed turns with the cable or turns it: add roller.friction."
+        if roller.inertia is not None and roller.surface_speed is not None:
+            return "a roller is either driven (roller.surface_speed) or turned by the cable (roller.inertia), not both."
+        if roller.bearing_moment is not None and roller.inertia is None:
+            return "a roller with a bearing moment turns freely otherwise: add roller.inertia."
         return ""
 
     def _time_fault(self) -> str:

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beam.linear_solve import Factor
-from beam.rod_model import Blocks, Forces, RodModel
+from beam.rod_model import Forces, RodModel
 from beam.rotation_vector import turn_back
 from beam.section_memory import LONG, SectionMemory
 from beam.status import Outcome, Status
@@ -91,7 +91,7 @@ def equilibrium(
         outcome is not completed, `q` is the last shape that was reached and `memory` the one before the load step.
     """
     settings = settings or StaticSettings()
-    q = (model.q0 if q is None else model.rod.columns(q)).copy()
+    q = (model.q0 if q is None else model.complete(q)).copy()
     rest, unused = np.zeros_like(q), np.zeros_like(q)
     model.prescribe(t, q, unused, unused)
     unused[:] = 0.0
@@ -139,7 +139,7 @@ def _step(
     trial, rest = q.copy(), np.zeros_like(q)
     start = np.inf
     for k in range(settings.iterations):
-        blocks = Blocks.zeros(model.rod.nodes, model.rod.dof)
+        blocks = model.blocks()
         forces = forces_of(t, trial, rest, anchors, friction=False, blocks=blocks)
         residual = np.where(model.free, forces.F + model.inertia((trial - q) / h**2), 0.0)
         size = float(np.linalg.norm(residual))
@@ -196,9 +196,8 @@ def _where(model: RodModel, forces: Forces) -> str:
     R = np.where(model.free, forces.F, 0.0)
     broken = np.argwhere(~np.isfinite(R))
     if broken.size:
-        return f"Node {broken[0, 0]} has a force that is not a number: check the inputs that act there."
+        name = model.row_name(int(broken[0, 0]))
+        return f"{name[0].upper()}{name[1:]} has a force that is not a number: check the inputs that act there."
     node = int(np.argmax(np.abs(R[:, FORCE_ROWS]).max(axis=1)))
     worst = float(np.abs(R[node, FORCE_ROWS]).max())
-    return (
-        f"The residual is largest at node {node}, {worst:.2e} N: try a start shape closer to the supports and contacts."
-    )
+    return f"The residual is largest at {model.row_name(node)}, {worst:.2e} N: try a start shape closer to the supports and contacts."

@@ -1,8 +1,9 @@
 """Surfaces the cable lies on: planes (trough floor, deck) and cylinders (roller, drum), as plain descriptions.
 
 A surface acts on the **centre line**: the floor plane lies half a diameter above the real floor, the cylinder's radius is
-the radius of the bend. A freely turning roller without inertia and bearing friction carries no friction: mu = 0. A drum
-that does not turn has mu > 0.
+the radius of the bend. A cylinder does not turn (a drum), turns as prescribed (a driven roller), or turns freely with its own
+inertia and the friction of its bearing (:mod:`beam.free_roller`). A freely turning roller without inertia and bearing friction
+carries no friction: mu = 0.
 """
 
 from __future__ import annotations
@@ -20,6 +21,28 @@ Array = NDArray[np.float64]
 
 Travel = Callable[[float], tuple[Array, Array, Array]]
 """Time [s] -> displacement [m], velocity [m/s], acceleration [m/s^2], each (3,)."""
+
+Spin = Callable[[float], tuple[float, float, float]]
+"""Time [s] -> angle about z [rad], angular velocity, angular acceleration."""
+
+
+@dataclass(frozen=True)
+class FreeTurn:
+    """A cylinder that the cable turns: its `inertia` about the axis [kg m^2], `moment` of the dry friction in its bearing [N m].
+
+    The bearing holds the roller exactly up to `moment`, elastically over an angle of `play` [rad], as a bristle does.
+    """
+
+    inertia: float
+    moment: float = 0.0
+    play: float = 1e-4
+
+    def __post_init__(self) -> None:
+        if not (self.inertia > 0 and self.moment >= 0 and self.play > 0):
+            raise SpecError(
+                f"a free roller needs a positive inertia and play and a bearing moment of zero or more, found "
+                f"{self.inertia:g} kg m^2, {self.play:g} rad and {self.moment:g} N m; without inertia take friction 0."
+            )
 
 
 @dataclass(frozen=True)
@@ -66,8 +89,9 @@ class Plane:
     points: int = 3
 
     def parameters(self, t: float) -> Array:
-        """What the kernel reads at time `t`, shape (23,)."""
+        """What the kernel reads at time `t`, shape (26,)."""
         p = np.zeros(PARAMETERS)
+        p[24] = 1.0
         p[0] = PLANE
         self.law.fill(p)
         p[6:9], p[9] = self.normal, self.offset
@@ -79,7 +103,10 @@ class Plane:
 
 @dataclass(frozen=True)
 class Cylinder:
-    """Cylinder with its axis along z through `centre`, moved by `travel`; the centre line stays outside `radius`."""
+    """Cylinder with its axis along z through `centre`, moved by `travel`; the centre line stays outside `radius`.
+
+    `turn` says how it turns about its axis: prescribed, freely, or not at all.
+    """
 
     name: str
     law: ContactLaw
@@ -87,10 +114,12 @@ class Cylinder:
     radius: float
     travel: Travel | None = None
     points: int = 6
+    turn: Spin | FreeTurn | None = None
 
     def parameters(self, t: float) -> Array:
-        """What the kernel reads at time `t`, shape (23,)."""
+        """What the kernel reads at time `t`, shape (26,)."""
         p = np.zeros(PARAMETERS)
+        p[24] = 1.0
         p[0] = CYLINDER
         self.law.fill(p)
         p[10:13], p[16] = self.centre, self.radius
@@ -98,8 +127,15 @@ class Cylinder:
             displacement, velocity, _ = self.travel(t)
             p[10:13] += displacement
             p[13:16] = velocity
+        if self.turn is not None and not isinstance(self.turn, FreeTurn):
+            turn_surface(p, *self.turn(t)[:2])
         p[17:20], p[20:23] = -np.inf, np.inf
         return p
+
+
+def turn_surface(p: Array, angle: float, speed: float) -> None:
+    """Write a cylinder's turning into its parameters `p`."""
+    p[23:26] = speed, np.cos(angle), np.sin(angle)
 
 
 Surface = Plane | Cylinder

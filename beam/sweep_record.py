@@ -105,8 +105,22 @@ class SweepFolder:
             raise InputError(f"{self.path}: a finished run cannot be kept: {error}; free some space.") from None
 
     def rows(self) -> list[dict[str, Any] | None]:
-        """Rows in the order of the grid; None where a run is missing."""
-        return [json.loads(self._row_file(id).read_text("utf-8")) if self.has(id) else None for _, id in self.places]
+        """Rows in the order of the grid; None where a run is missing.
+
+        Raises
+        ------
+        InputError
+            If the file of a run is damaged.
+        """
+        return [self._row(id) if self.has(id) else None for _, id in self.places]
+
+    def _row(self, id: str) -> dict[str, Any]:
+        try:
+            return json.loads(self._row_file(id).read_text("utf-8"))
+        except (OSError, ValueError) as error:
+            raise InputError(
+                f"{self._row_file(id)} cannot be read: {error}; delete it and repeat the command, which makes this run again."
+            ) from None
 
     def counts(self) -> tuple[int, int, int]:
         """Completed, failed and missing runs."""

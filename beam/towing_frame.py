@@ -17,6 +17,7 @@ from beam.incline_formula import towing_force_down, towing_force_up
 from beam.rod import GAUSS_X
 from beam.rod_model import RodModel
 from beam.scenario import Scenario
+from beam.surface import FreeTurn
 
 if TYPE_CHECKING:
     import xarray
@@ -65,6 +66,25 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
         "1",
         "largest |t| / (mu f_n) of the element's contact points: below 1 it sticks, 1 it slips; 0 without contact or friction",
     ),
+    "contact_gap": (
+        ("element", "surface"),
+        "m",
+        "smallest gap of the element's contact points, negative: gone into the surface; NaN beyond the surface's extent",
+    ),
+    "contact_normal": (("element", "surface"), "N", "normal force of the surface on the element, sum of magnitudes"),
+    "contact_friction": (("element", "surface"), "N", "friction of the surface on the element, sum of magnitudes"),
+    "contact_slip": (
+        ("element", "surface"),
+        "1",
+        "share of contact_normal at points that slip: 0 sticks, 1 slips; NaN without contact",
+    ),
+    "surface_gap": (("surface",), "m", "smallest gap of the surface; NaN if no cable is within its extent"),
+    "surface_force": (("surface", "axis"), "N", "force of the surface on the cable"),
+    "surface_normal": (("surface",), "N", "normal force of the surface, sum of magnitudes"),
+    "surface_friction": (("surface",), "N", "friction of the surface, sum of magnitudes"),
+    "surface_slip": (("surface",), "1", "share of surface_normal at points that slip; NaN without contact"),
+    "surface_turn": (("surface",), "rad", "angle by which the surface has turned about z"),
+    "surface_spin": (("surface",), "rad/s", "its angular velocity"),
     "pull_force": (("axis",), "N", "force of the shearer on the cable's end"),
     "pull_moment": (("axis",), "N m", "moment of the shearer on the cable's end"),
     "supply_reaction": (("axis",), "N", "force of the fixed support at the supply end"),
@@ -104,6 +124,7 @@ def frame(scenario: Scenario, motion: Integrator) -> dict[str, Any]:
         "gauss_strain": E,
         "gauss_force": rod.in_section_axes(q, forces.S),
         "friction_use": np.stack([cone.max(axis=1) for cone in forces.cones], axis=1),
+        **_contacts(motion),
         "pull_force": reaction[-1, 0:3],
         "pull_moment": last,
         "supply_reaction": reaction[0, 0:3],
@@ -115,6 +136,37 @@ def frame(scenario: Scenario, motion: Integrator) -> dict[str, Any]:
         "energy": np.array([motion.ledger.totals[name] for name in energy_names(model)]),
         "energy_error": motion.ledger.balance_error * motion.ledger.throughput,
     }
+
+
+def _contacts(motion: Integrator) -> dict[str, Array]:
+    """Gap, normal force, friction and slip, of elements and of surfaces."""
+    states = motion.contacts
+    turned = surface_turns(motion)
+    return {
+        "contact_gap": np.stack([s.element_gap for s in states], axis=1),
+        "contact_normal": np.stack([s.normal.sum(axis=1) for s in states], axis=1),
+        "contact_friction": np.stack([s.friction.sum(axis=1) for s in states], axis=1),
+        "contact_slip": np.stack([s.element_slip for s in states], axis=1),
+        "surface_gap": np.array([s.smallest_gap for s in states]),
+        "surface_force": np.array([s.force.sum(axis=(0, 1)) for s in states]),
+        "surface_normal": np.array([s.normal.sum() for s in states]),
+        "surface_friction": np.array([s.friction.sum() for s in states]),
+        "surface_slip": np.array([s.slip_share for s in states]),
+        "surface_turn": turned[:, 0],
+        "surface_spin": turned[:, 1],
+    }
+
+
+def surface_turns(motion: Integrator) -> Array:
+    """Angle [rad] and angular velocity [rad/s] of every surface, zero for those that do not turn, (surfaces, 2)."""
+    model = motion.model
+    out = np.zeros((len(model.surfaces), 2))
+    for k, surface in enumerate(model.surfaces):
+        turn = getattr(surface, "turn", None)
+        if turn is not None and not isinstance(turn, FreeTurn):
+            out[k] = turn(motion.t)[:2]
+    out[model.free_rollers] = motion.rollers.turned
+    return out
 
 
 def empty_dataset(model: RodModel, attributes: dict[str, Any]) -> xarray.Dataset:

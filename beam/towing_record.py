@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import csv
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from beam.section_stress import largest_normal_stress
+from geometry.errors import InputError
 
 if TYPE_CHECKING:
+    import xarray
+
     from beam.towing_run import TowingRun
 
 PUBLISHED_NODES = (54, 199, 220, 370)
@@ -55,6 +60,7 @@ def towing_record(run: TowingRun) -> dict[str, Any]:
         "energies": dict(zip(map(str, data["source"].values), (energy[-1] - energy[0]).tolist(), strict=True)),
         "static_residual": {"force": run.static_residual[0], "moment": run.static_residual[1]},
         "deepest_penetration": run.deepest_penetration[0],
+        "contacts": contact_record(data),
         "nodes": nodes,
         "bushing_3_amplitude": None,
         "contact_35": None,
@@ -63,6 +69,52 @@ def towing_record(run: TowingRun) -> dict[str, Any]:
         "assumed": {key: entry.text for key, entry in entries.items() if entry.status == "assumed"},
         "notes": _notes(run),
     }
+
+
+def contact_record(data: xarray.Dataset) -> dict[str, dict[str, float | None]]:
+    """By surface: smallest gap, largest and last normal force and friction, share that slips at the end, turning."""
+    out = {}
+    for name in map(str, data["surface"].values):
+        one = {key: data[f"surface_{key}"].sel(surface=name).values for key in SURFACE_COLUMNS}
+        gaps = one["gap"][np.isfinite(one["gap"])]
+        slip = float(one["slip"][-1])
+        out[name] = {
+            "gap_min": float(gaps.min()) if gaps.size else None,
+            "normal_max": float(one["normal"].max()),
+            "normal_end": float(one["normal"][-1]),
+            "friction_max": float(one["friction"].max()),
+            "friction_end": float(one["friction"][-1]),
+            "slip_share_end": slip if np.isfinite(slip) else None,
+            "turn_end": float(one["turn"][-1]),
+        }
+    return out
+
+
+SURFACE_COLUMNS = {"gap": "m", "normal": "N", "friction": "N", "slip": "1", "turn": "rad", "spin": "rad/s"}
+"""What is recorded of a surface over time, with its unit."""
+
+
+def write_contact_table(data: xarray.Dataset, path: str | Path) -> Path:
+    """Contacts over time as CSV: time, then for every surface gap, normal force, friction, slip share, turning; empty where none.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
+    path = Path(path)
+    surfaces = [str(name) for name in data["surface"].values]
+    head = ["time [s]", *(f"{name} {key} [{unit}]" for name in surfaces for key, unit in SURFACE_COLUMNS.items())]
+    columns = [data["time"].values]
+    columns += [data[f"surface_{key}"].sel(surface=name).values for name in surfaces for key in SURFACE_COLUMNS]
+    try:
+        with path.open("w", newline="", encoding="utf-8") as file:
+            table = csv.writer(file)
+            table.writerow(head)
+            table.writerows(["" if np.isnan(x) else f"{x:.9g}" for x in row] for row in zip(*columns, strict=True))
+    except OSError as error:
+        raise InputError(f"{path}: the contacts cannot be written there: {error}.") from None
+    return path
 
 
 def _notes(run: TowingRun) -> list[str]:

@@ -1,24 +1,29 @@
 """The rod beside Exudyn (an optional peer, `pip install exudyn`): CPU time as ratios within one run, and the same answers.
 
-Three cases whose models are the same on both sides:
+Cases whose models are the same on both sides:
 
-1. straight cable of 16 m on a floor, pulled for 1 s with 1 ms steps: 3D ANCF cable, 3D geometrically exact beam;
+1. straight cable of 16 m on a floor, pulled with 1 ms steps: 3D ANCF cable, 3D geometrically exact beam (its first 0.1 s,
+   because it takes long);
 2. stick-slip (F1): the same cable pulled slowly by 5 mm, whose force is known exactly;
-3. flexible pendulum (D1): tip position.
+3. flexible pendulum (D1): tip position;
+
+and one whose models are similar, see :mod:`benchmarks.rod_exudyn_towing`: towing round a roller for 5 s.
 
 Exudyn has the floor as nodal springs with bristle friction of a constant normal force, here it lies at Gauss points with the
-true one. Both solve the equations of each step to 1e-6 of the first residual. Medians of several runs, one core.
+true one. Both solve the equations of each step to 1e-6 of the first residual. Medians of CPU seconds, the cases in turn.
 
-Run: python -m benchmarks.rod_exudyn [repetitions]. The last results are in benchmarks/rod_exudyn.md.
+Run: python -m benchmarks.rod_exudyn [repetitions]. It writes benchmarks/rod_exudyn.md.
 """
 
 from __future__ import annotations
 
 import importlib.util
+import os
 import sys
 import time
 from collections.abc import Callable
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -171,49 +176,73 @@ def medians(cases: dict[str, Callable[[], tuple[float, Any]]], repetitions: int)
     """Median CPU time of every case, run in turn so that the machine's load meets all alike; the last answer."""
     times: dict[str, list[float]] = {name: [] for name in cases}
     answers: dict[str, Any] = {}
-    for k in range(repetitions + 1):
+    for _ in range(repetitions):
         for name, case in cases.items():
             seconds, answers[name] = case()
-            if k > 0:  # the first round loads compiled code
-                times[name].append(seconds)
+            times[name].append(seconds)
     return {name: (float(np.median(times[name])), answers[name]) for name in cases}
 
 
-def table(title: str, results: dict[str, tuple[float, Any]]) -> None:
-    """Print one case; the first row is this rod, whose time the others are divided by."""
-    print(
-        f"\n{title}\n\n| {'element':<36} | {'s':>7} | {'ratio':>6} | answer |\n|{'-' * 38}|{'-' * 9}|{'-' * 8}|--------|"
-    )
+def table(title: str, results: dict[str, tuple[float, Any]]) -> str:
+    """One case; the first row is this rod, whose time the others are divided by."""
+    rows = [title, "", "| element | CPU s | ratio | answer |", "|---|---|---|---|"]
     first = next(iter(results.values()))[0]
     for name, (seconds, answer) in results.items():
         shown = ", ".join(f"{x:.5g}" for x in np.atleast_1d(answer))
-        print(f"| {name:<36} | {seconds:7.2f} | {seconds / first:6.2f} | {shown} |")
+        rows.append(f"| {name} | {seconds:.2f} | {seconds / first:.2f} | {shown} |")
+    return "\n".join(rows)
+
+
+def all_cases() -> dict[str, dict[str, Callable[[], tuple[float, Any]]]]:
+    """Runs by title and element; the first of every title is this rod."""
+    from benchmarks.rod_exudyn_towing import own_towing, peer_towing
+
+    pull, slow, h = SpeedRamp(0.3, 0.0, 0.5), SpeedRamp(2e-3, 0.0, 3.0), 1e-3
+    exact = float(np.sqrt(2 * EA * MU * WEIGHT * 5e-3))
+    rod = "this rod (3D, shear, torsion)"
+    return {
+        "Pulled along the floor, 400 elements, 0.5 s, steps of 1 ms; pull N": {
+            rod: lambda: own_pull(400, pull, 0.5, h),
+            "Exudyn ANCFCable 3D": lambda: peer_pull("cable", 400, pull, 0.5, h),
+        },
+        "The same, its first 0.1 s; pull N": {
+            rod: lambda: own_pull(400, pull, 0.1, h),
+            "Exudyn geometrically exact beam 3D": lambda: peer_pull("beam", 400, pull, 0.1, h),
+        },
+        "Towing round a roller, 400 elements, 5 s, steps of 5 ms, similar models; pull N": {
+            rod: lambda: own_towing(400, 5e-3),
+            "Exudyn ANCFCable2D, constant normal force": lambda: peer_towing(400, 5e-3),
+        },
+        f"Stick-slip, 100 elements, 4 s, steps of 5 ms; pull N, exact {exact:.2f}": {
+            rod: lambda: own_pull(100, slow, 4.0, 5e-3),
+            "Exudyn ANCFCable 3D": lambda: peer_pull("cable", 100, slow, 4.0, 5e-3),
+        },
+        "Flexible pendulum, 64 elements, 0.6 s, steps of 1 ms; tip m": {
+            rod: lambda: own_pendulum(h),
+            "Exudyn ANCFCable 3D": lambda: peer_pendulum(h),
+        },
+    }
 
 
 def main(repetitions: int = 3) -> None:
-    """Print the tables, or say why not."""
+    """Print the tables and write them down, or say why not."""
     if not installed():
         print(MISSING)
         return
-    pull, n, h = SpeedRamp(0.3, 0.0, 0.5), 400, 1e-3
-    cases: dict[str, Callable[[], tuple[float, Any]]] = {
-        "this rod (shear, torsion)": lambda: own_pull(n, pull, 1.0, h),
-        "Exudyn ANCFCable 3D": lambda: peer_pull("cable", n, pull, 1.0, h),
-        "Exudyn geometrically exact beam 3D": lambda: peer_pull("beam", n, pull, 1.0, h),
-    }
-    table(f"Pulled along the floor, {n} elements, 1 s, steps of 1 ms; pull N", medians(cases, repetitions))
-    slow, n = SpeedRamp(2e-3, 0.0, 3.0), 100
-    cases = {
-        "this rod (shear, torsion)": lambda: own_pull(n, slow, 4.0, 5e-3),
-        "Exudyn ANCFCable 3D": lambda: peer_pull("cable", n, slow, 4.0, 5e-3),
-    }
-    exact = float(np.sqrt(2 * EA * MU * WEIGHT * 5e-3))
-    table(f"Stick-slip, {n} elements, 4 s, steps of 5 ms; pull N, exact {exact:.2f}", medians(cases, repetitions))
-    cases = {
-        "this rod (shear, torsion)": lambda: own_pendulum(1e-3),
-        "Exudyn ANCFCable 3D": lambda: peer_pendulum(1e-3),
-    }
-    table("Flexible pendulum, 64 elements, 0.6 s, steps of 1 ms; tip m", medians(cases, repetitions))
+    from importlib.metadata import version
+
+    own_pull(8, SpeedRamp(0.3, 0.0, 0.5), 0.01, 1e-3)
+    load = ", ".join(f"{x:.1f}" for x in os.getloadavg())
+    parts = [
+        "# The rod beside Exudyn",
+        f"Written by `python -m benchmarks.rod_exudyn {repetitions}`: medians of {repetitions} runs in turn, Exudyn "
+        f"{version('exudyn')}, numba {version('numba')}, {os.cpu_count()} cores with a load of {load} at the start. CPU seconds "
+        "swing with the load, ratios less.",
+    ]
+    for title, cases in all_cases().items():
+        parts.append(table(title, medians(cases, repetitions)))
+        print(parts[-1], end="\n\n", flush=True)
+        (Path(__file__).parent / "rod_exudyn.md").write_text("\n\n".join(parts) + "\n")
 
 
 if __name__ == "__main__":

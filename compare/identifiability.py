@@ -97,7 +97,9 @@ def identifiability(
 def _direction(value: float, v: Array, prior: Array, names: Sequence[str], log: NDArray[np.bool_]) -> Direction:
     """A direction in words: the covector v / prior is what the targets see, so that products and quotients stand in it."""
     seen = v / prior
-    shown: list[int] = [i for i in np.argsort(-np.abs(v)).tolist() if abs(v[i]) > _SHOWN * np.abs(v).max()]
+    shown: list[int] = [
+        i for i in np.argsort(-np.abs(v).round(9), kind="stable").tolist() if abs(v[i]) > _SHOWN * np.abs(v).max()
+    ]
     largest = np.abs(seen[shown]).max()
     spread = float(1 / np.sqrt(1 + value) / largest)
     if value < OPEN:

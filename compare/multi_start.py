@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Residual = Callable[[Array], Array]
 _SAME_COST = 1e-3
+_SAME_FALL = 1e-6
+"""Relative fall of the cost, or step, at which a search ends: along a sloppy direction it would go on for long."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,7 @@ def multi_start(
     residual : callable
         r(x), (n,); n may be smaller than p, when the minimum is a set and each start ends at its own place of it.
     low, high : (p,) arrays
-    count, first, seed : starts, one more place to start from, seed of the sequence
+    count, first, seed : starts of the sequence (0 for none), places (p,) or (k, p) to start from before them, seed of the sequence
     progress : callable, optional
 
     Examples
@@ -76,14 +78,16 @@ def multi_start(
     """
     from scipy.optimize import least_squares  # slow to load, needed here only
 
-    starts = sobol_starts(low, high, count, seed)
+    starts = sobol_starts(low, high, count, seed) if count else np.zeros((0, len(low)))
     if first is not None:
-        starts = np.vstack([np.clip(first, low, high), starts])
+        starts = np.vstack([np.clip(np.atleast_2d(first), low, high), starts])
     margin = 1e-9 * (high - low)
     found: list[Minimum] = []
     for i, x in enumerate(starts):
         inside = np.clip(x, low + margin, high - margin)
-        run = least_squares(residual, inside, bounds=(low, high), x_scale=high - low, max_nfev=200)
+        run = least_squares(
+            residual, inside, bounds=(low, high), x_scale=high - low, ftol=_SAME_FALL, xtol=_SAME_FALL, max_nfev=100
+        )
         found.append(Minimum(run.x, float(run.cost), run.fun, run.jac))
         if progress is not None:
             progress(

@@ -12,7 +12,7 @@ an input of the model with the range inside which it is plausible, where the ran
 
     [[parameters]]
     name = "sheath"
-    moves = ["materials.chloroprene sheath.E"]   # keys of the cable file, or "length", "phase"
+    moves = ["materials.chloroprene sheath.E"]   # keys of the cable file, or "length", "phase", "interface.core-filler"
     range = ["3 MPa", "12 MPa"]
     status = "assumed"
     reason = "..."
@@ -57,7 +57,8 @@ class InputParameter:
     ----------
     name : str
     moves : tuple of str
-        Keys of the cable file that take the value together, or ``length``, ``phase`` of the specimen.
+        Keys of the cable file that take the value together, or ``length``, ``phase`` of the specimen, or the tangential stiffness
+        per area of interfaces, ``interface.`` and the two sides as in :class:`homogenize.interface_choice.Interfaces`.
     low, high : float
         Range, SI.
     start : float or None
@@ -183,6 +184,18 @@ def _target(entry: Any, where: str) -> Target:
     return Target(name, value, UNITS[name], float(error), _text(entry, "load", where), _text(entry, "source", where))
 
 
+INTERFACE = "interface."
+"""Begins what moves the stiffness of an interface."""
+
+
+def _unit(moves: list[str]) -> str:
+    if moves == ["phase"]:
+        return "rad"
+    if all(m.startswith(INTERFACE) for m in moves):
+        return "Pa/m"
+    return "Pa" if all(m.endswith(".E") for m in moves) else "m"
+
+
 def _parameter(entry: Any, where: str) -> InputParameter:
     _known_keys(entry, _PARAMETER_KEYS, where)
     name = _text(entry, "name", where)
@@ -192,7 +205,7 @@ def _parameter(entry: Any, where: str) -> InputParameter:
         raise SpecError(
             f'{where}: moves is missing; list keys of the cable file, such as ["materials.screen.E"], or "length".'
         )
-    unit = "rad" if moves == ["phase"] else "Pa" if all(m.endswith(".E") for m in moves) else "m"
+    unit = _unit(moves)
     limits = entry.get("range")
     if not isinstance(limits, list) or len(limits) != 2:
         raise SpecError(f'{where}: range is missing; write two values such as ["3 MPa", "12 MPa"].')

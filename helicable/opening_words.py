@@ -7,7 +7,9 @@ from geometry.units import read_quantity
 from homogenize import Interfaces
 from homogenize.specimen.frictional_contact import FrictionalContact
 
-LAWS = "opening, opening:GAP (negative: an interference), either with +coulomb:COEFFICIENT"
+LAWS = "opening, opening:GAP (negative: an interference), either with +coulomb:COEFFICIENT and +grip:PRESSURE"
+MOST_FRICTION = 2.0
+"""Coefficient above which a slip of the pen is more likely than rubber on rubber."""
 
 
 def read_opening(text: str, where: str = "--interface") -> Interfaces | None:
@@ -16,12 +18,14 @@ def read_opening(text: str, where: str = "--interface") -> Interfaces | None:
     Raises
     ------
     SpecError
-        If a law or a unit is not known, or interfaces that open stand beside others.
+        If a law or a unit is not known, a coefficient or a grip is out of place, or interfaces that open stand beside others.
 
     Examples
     --------
     >>> read_opening("core-filler=opening:-0.02 mm+coulomb:0.3").describe()
     'core-filler contact that opens, friction 0.3, interference 2e-05 m'
+    >>> read_opening("core-filler=opening+coulomb:0.3+grip:20 kPa").describe()
+    'core-filler contact that opens, friction 0.3, grip 20000 Pa'
     >>> read_opening("core-filler=frictionless") is None
     True
     """
@@ -41,10 +45,20 @@ def read_opening(text: str, where: str = "--interface") -> Interfaces | None:
 
 
 def _law(text: str, where: str) -> FrictionalContact:
-    first, plus, second = (part.strip() for part in text.partition("+"))
+    first, *others = (part.strip() for part in text.split("+"))
     _, colon, gap = (part.strip() for part in first.partition(":"))
-    word, _, value = (part.strip() for part in second.partition(":"))
-    if plus and (word != "coulomb" or not value):
-        raise SpecError(f'{where} has the law "{text}", which is not known; write {LAWS}.')
-    friction = read_quantity(value, "1", f"{where} coulomb") if plus else 0.0
-    return FrictionalContact(friction, gap=read_quantity(gap, "m", f"{where} opening") if colon else 0.0)
+    found: dict[str, str] = {}
+    for entry in others:
+        word, _, value = (part.strip() for part in entry.partition(":"))
+        if word not in ("coulomb", "grip") or not value or word in found:
+            raise SpecError(f'{where} has the law "{text}", which is not known; write {LAWS}.')
+        found[word] = value
+    friction = read_quantity(found["coulomb"], "1", f"{where} coulomb") if "coulomb" in found else 0.0
+    if not 0 <= friction <= MOST_FRICTION:
+        raise SpecError(
+            f"{where} has a coefficient of friction of {friction:g}; give one from 0 to {MOST_FRICTION:g}, or leave the pair out (bonded)."
+        )
+    grip = read_quantity(found["grip"], "Pa", f"{where} grip") if "grip" in found else 0.0
+    if grip < 0:
+        raise SpecError(f"{where} has a grip of {grip:g} Pa; a grip presses the parts together, give zero or more.")
+    return FrictionalContact(friction, grip, read_quantity(gap, "m", f"{where} opening") if colon else 0.0)

@@ -21,6 +21,7 @@ from homogenize.specimen import (
     follow_specimen,
 )
 from homogenize.specimen.apparent_modulus import ApparentModulus
+from homogenize.specimen.contact_condensation import imbalance
 from homogenize.specimen.ladder import SOFT
 from homogenize.specimen.load_steps import contact_modulus, equal_steps, followed_modulus
 from homogenize.specimen.opening_specimen import contact_path, initial_state
@@ -82,7 +83,7 @@ def opening_moduli(
     moved = np.abs(start.face).max()
     if moved > 0:
         notes.append(f"before any load the loaded end has moved by {1e3 * moved:.3g} mm: an interference was let go")
-    found = []
+    found, off = [], 0.0
     for i, load in enumerate(loads):
         k = one_sign.index(replace(load, size=abs(load.size)))
         shares = [float(np.sign(load.size)) * share for share in equal_steps(steps)]
@@ -90,10 +91,12 @@ def opening_moduli(
         path = contact_path(contacts, k, shares, start)
         found.append(contact_modulus(contacts, k, start, path))
         last = path[-1]
+        off = max(off, *(float(imbalance(step.resultants, specimen.length)) for step in path))
         notes.append(
             f"{load.name}: {100 * last.open_share(contacts.area):.0f} % of the contact surface open, "
             f"{1e3 * last.dissipated:.3g} mJ rubbed away"
         )
+    notes.append(f"forces and moments in balance to {100 * off:.2g} % of the load in every step")
     return tuple(found), notes
 
 

@@ -28,8 +28,9 @@ from homogenize import solve_helical_cell
 from homogenize.specimen import AxialGrading, LoadCase, Plate, Specimen, coarse_section, solve_specimen
 from homogenize.specimen.apparent_modulus import apparent_moduli
 from homogenize.specimen.gauge_length import gauge_modulus
-from homogenize.specimen.ladder import PUBLISHED, linear_rung, long_cable_rungs, read_ladder
+from homogenize.specimen.ladder import PUBLISHED, linear_rung, long_cable_rungs
 from homogenize.specimen.ladder_plot import ladder_plot
+from homogenize.specimen.ladder_record import read_ladder
 
 cable = read_cable("paper-specimen-3x35")
 section = coarse_section(cable)  # some 200 curved triangles: 5 % too stiff, and quick
@@ -145,8 +146,9 @@ assert all(g > 5 * E for g, E in zip(gauge, found))
 # ## 4 The ladder
 #
 # What is left: deflections a quarter too large, G a quarter too small, and what a linear bonded model cannot give: G of 53 in one plane
-# and 45 in the other, 6.95 mm in +X and 7.96 mm in -X. The stored record has the same steps on a finer mesh
-# (`python -m benchmarks.ladder`); conductors on an elastic interface are added.
+# and 45 in the other, 6.95 mm in +X and 7.96 mm in -X. The first two belong to inputs that are not published. The stored record
+# (`python -m benchmarks.ladder`) climbs the same steps, and those that follow, on `mcpt-1.9-3.3-3x35-specimen`. Its inputs were
+# calibrated inside their ranges; they are the same on every rung.
 
 # %%
 about, rungs = read_ladder(Path("../benchmarks/ladder.json"))
@@ -156,14 +158,10 @@ ladder_plot(rungs, about)
 
 # %%
 by = {rung.name: rung for rung in rungs}
-fine = by["traction on the end-section"]
-assert (
-    abs(traction.E / fine.E - 1) < 0.06 and abs(traction.u_plus_x / fine.u_plus_x - 1) < 0.06
-)  # what the coarse section costs
-misfit = [
-    by[name].misfit(PUBLISHED) for name in ("long cable, bonded", "twist released", "traction on the end-section")
-]
-assert misfit == sorted(misfit, reverse=True) and misfit[-1] < 0.3 < 2.0 < misfit[0]
+fine, few = by["traction on the end-section"], by["traction, coarse mesh"]
+assert abs(few.E / fine.E - 1) < 0.06 and abs(few.u_plus_x / fine.u_plus_x - 1) < 0.06  # what the coarse section costs
+misfit = [rung.misfit(PUBLISHED) for rung in rungs[:4]]
+assert misfit == sorted(misfit, reverse=True) and misfit[-1] < 0.1 < 2.0 < misfit[0]  # the error falls rung by rung
 assert by["elastic interface"].misfit(PUBLISHED) > misfit[-1]  # softer conductors lead away
 odd = (PUBLISHED.u_plus_x + PUBLISHED.u_minus_x) / 2
 even = (PUBLISHED.u_plus_x - PUBLISHED.u_minus_x) / 2
@@ -177,13 +175,13 @@ assert abs(large.u_plus_x - large.u_minus_x) < 0.2 * abs(PUBLISHED.u_plus_x - PU
 # %% [markdown]
 # ## Answer
 #
-# The end does it. Of the factor of 46 in E all but a tenth goes with one step, the load through the end-section; the misfit of the eight
-# numbers falls from 2.2 to 0.24. Twist is a third of E, the conductors' interface a twentieth, and a rigid plate in place of the
-# traction would have measured gigapascals.
+# The end does it. Of the factor of 63 between the long cable's E and the published one (thirty on the constructed section once the twist is
+# free) nearly all goes with one step, the load through the end-section: the misfit of the eight numbers falls from 2.15 to 0.06, where
+# six of them had been fitted by the inputs. Twist is a third of E, the conductors' interface a twentieth, and a rigid plate in place
+# of the traction would have measured gigapascals.
 #
-# What stays open: G and the deflections (inputs that are not published move them: insulation, lay, length, see `helicable calibrate`),
-# the ratio of the two G, and the difference between +X and -X: large displacements give a tenth of it. Opening contacts can be tried
-# with `helicable specimen --interface core-filler=opening+coulomb:0.3`; docs/specimen.md says what they gave so far.
+# What stays open: the ratio of the two G, and the difference between +X and -X: large displacements give a tenth of it. Opening contacts
+# make parts of that size, on a specimen half as stiff; docs/specimen.md says what was tried.
 #
 # **What a designer should use.** The values of the cell: EA, GJ, EI and their coupling (`helicable homogenize`). 142, 53 and 45 MPa hold
 # for that length and that end only. **The test that settles it:** two lengths, or an extensometer over the middle fifth of a specimen of

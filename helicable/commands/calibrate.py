@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,16 +13,11 @@ from compare.input_calibration import InputCalibration
 from compare.target_file import read_targets
 from geometry.errors import InputError, SpecError
 from geometry.units import read_quantity
+from helicable.calibration_case import CalibrationCase, is_interface, read_case, written
 from helicable.options import CableArgument, JsonOption, SizeOption
 from helicable.screen import folder, progress, say, table, write_json
-from helicable.specimen_calibration import (
-    CalibrationCase,
-    CheapModel,
-    calibrate_case,
-    calibrated_text,
-    read_case,
-    written,
-)
+from helicable.specimen_calibration import calibrate_case, calibrated_text
+from helicable.specimen_surrogate import SpecimenSurrogate
 
 
 def calibrate(
@@ -36,13 +32,15 @@ def calibrate(
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with the finished runs in --out after a kill.")
     ] = False,
-    runs: Annotated[int, typer.Option(help="Full runs at most.")] = 5,
-    snapshots: Annotated[int, typer.Option(help="Solutions in the cheap model.")] = 10,
+    runs: Annotated[int, typer.Option(help="Full runs at most.")] = 8,
+    snapshots: Annotated[int, typer.Option(help="First solutions of the cheap model; it learns more by itself.")] = 12,
     starts: Annotated[int, typer.Option(help="Starts of each search.")] = 16,
     size: SizeOption = None,
     coarse: Annotated[
         str | None,
-        typer.Option("--coarse", metavar="SIZE", help="Element size of the cheap model; as the full one if not given."),
+        typer.Option(
+            "--coarse", metavar="SIZE", help="Element size of the cheap model; a few hundred elements if not given."
+        ),
     ] = None,
     json: JsonOption = None,
 ) -> None:
@@ -59,9 +57,14 @@ def calibrate(
     cheap_element = None if coarse is None else read_quantity(coarse, "m", "--coarse")
     case = read_case(cable, read_targets(targets), element, snapshots, cheap_element)
     store = EvaluationStore(None if out is None else folder(out) / "finished-runs.jsonl", resume)
+    started = time.process_time()
     with progress("calibrating") as tell:
         found, cheap = calibrate_case(case, store, runs, starts, tell, None if out is None else out / "snapshots")
     show_calibration(found)
+    say(
+        f"{len(found.runs)} full runs, {len(cheap.basis.places)} solutions in the cheap model, "
+        f"{time.process_time() - started:.0f} s of processor time"
+    )
     record = calibration_record(case, found, cheap)
     write_json(json, record)
     if out is not None:
@@ -116,8 +119,9 @@ def show_calibration(found: InputCalibration) -> None:
 
 def calibration_notes(found: InputCalibration) -> list[str]:
     """What limits the result."""
+    held = "elastic interfaces" if any(is_interface(p) for p in found.parameters) else "bonded"
     notes = [
-        "linear, bonded, uniform traction on the whole end: +X and -X are alike, and large displacements are not followed"
+        f"linear, {held}, uniform traction on the whole end: +X and -X are alike, and large displacements are not followed"
     ]
     if not found.agreed:
         notes.append(
@@ -133,7 +137,7 @@ def calibration_notes(found: InputCalibration) -> list[str]:
     return notes
 
 
-def calibration_record(case: CalibrationCase, found: InputCalibration, cheap: CheapModel) -> dict[str, Any]:
+def calibration_record(case: CalibrationCase, found: InputCalibration, cheap: SpecimenSurrogate) -> dict[str, Any]:
     """The JSON of `helicable calibrate`."""
     known = found.identifiability
     return {
@@ -176,7 +180,7 @@ def calibration_record(case: CalibrationCase, found: InputCalibration, cheap: Ch
             for r in found.runs
         ],
         "minima": [{"x": m.x, "cost": m.cost, "starts": m.starts} for m in found.minima[:10]],
-        "snapshot_residuals": cheap.residuals[1:],
+        "snapshots": len(cheap.basis.places),
         "agreed": found.agreed,
         "notes": calibration_notes(found),
     }

@@ -35,6 +35,8 @@ from homogenize.specimen.specimen_mesh import specimen_mesh
 
 LENGTH = 0.1823
 """Of a specimen [m] if neither the options nor the cable file give one."""
+FAR = 0.1
+"""Largest displacement over the length above which small displacements are doubted."""
 SIZES = {
     "tension": ("2000 N", "N"),
     "shear": ("500 N", "N"),
@@ -51,9 +53,11 @@ def specimen(
         typer.Option(metavar="LENGTH", help="Of the specimen; the cable file's [specimen], or 182.3 mm, if not given."),
     ] = None,
     load: Annotated[
-        str,
-        typer.Option(help="`tension`, `shear`, `bending`, `torsion`, several with commas; direction as in `shear:-y`."),
-    ] = "tension",
+        str | None,
+        typer.Option(
+            help="`tension` (if not given), `shear`, `bending`, `torsion`, several with commas; direction as in `shear:-y`."
+        ),
+    ] = None,
     force: Annotated[
         str | None, typer.Option(metavar="SIZE", help="Of the load: 2000 N, 500 N across, 10 N m if not given.")
     ] = None,
@@ -94,8 +98,10 @@ def specimen(
     """
     made, substitute = specimen_cable(cable) if published else (read_cable(cable), "")
     wanted = wanted_specimen(made, length, phase, ends, held, interface)
-    loads = LOADS if published else _loads(load, force)
-    several = None if lengths is None else [read_quantity(part, "m", "--lengths") for part in lengths.split(",")]
+    if published and (load or force):
+        raise SpecError("--published has load cases of its own; leave --load and --force out.")
+    loads = LOADS if published else _loads(load or "tension", force)
+    several = None if lengths is None else _lengths(lengths)
     edge = None if size is None else read_quantity(size, "m", "--size")
     if large_displacement or is_opening(wanted.interface):
         if several is not None:
@@ -106,6 +112,8 @@ def specimen(
         write_json(json, record)
         if out is not None:
             write_json(folder(out) / "specimen.json", record)
+            _draw_curves(folder(out), found, wanted.loaded.describe())
+            say(f"written in {out}: specimen.json, stress_strain.png")
         return
     mesh = specimen_mesh(made, edge)
     with progress("finite specimen") as tell:
@@ -120,7 +128,16 @@ def specimen(
         law, record["lengths"] = _over_lengths(wanted, mesh, several)
     write_json(json, record)
     if out is not None:
-        _draw(folder(out), made, solution, law, record)
+        _draw(folder(out), solution, found, law, record)
+
+
+def _lengths(text: str) -> list[float]:
+    found = [read_quantity(part, "m", "--lengths") for part in text.split(",")]
+    if len(set(found)) < 2 or min(found) <= 0:
+        raise SpecError(
+            f'--lengths "{text}" needs at least two different lengths above zero; the law is fitted to them.'
+        )
+    return found
 
 
 def _beside_published(found: tuple[ApparentModulus, ...], cable: Cable, substitute: str) -> dict[str, Any]:
@@ -205,6 +222,12 @@ def show_specimen(cable: Cable, solution: SpecimenSolution, found: tuple[Apparen
 def specimen_notes(solution: SpecimenSolution, found: tuple[ApparentModulus, ...]) -> list[str]:
     """What limits the numbers."""
     notes = ["linear: a load step of any size gives the same modulus, R2 of the average stress-strain line is 1"]
+    far = max((a.u_max / solution.specimen.length for a in found if a.u_max == a.u_max), default=0.0)
+    if far > FAR:
+        notes.append(
+            f"the largest displacement is {100 * far:.3g} % of the length: too far for small displacements; take a smaller force "
+            "or --large-displacement"
+        )
     uneven = [a for a in found if a.unevenness > 1.2 and a.load == "tension"]
     if uneven:
         notes.append(
@@ -314,13 +337,26 @@ def specimen_record(cable: Cable, solution: SpecimenSolution, found: tuple[Appar
     }
 
 
-def _draw(where: Path, cable: Cable, solution: SpecimenSolution, law: LengthLaw | None, record: dict[str, Any]) -> None:
+def _draw_curves(where: Path, found: tuple[ApparentModulus, ...], note: str) -> None:
+    from homogenize.specimen.stress_strain_plot import draw_stress_strain
+
+    draw_stress_strain(found, where / "stress_strain.png", note)
+
+
+def _draw(
+    where: Path,
+    solution: SpecimenSolution,
+    found: tuple[ApparentModulus, ...],
+    law: LengthLaw | None,
+    record: dict[str, Any],
+) -> None:
     from homogenize.specimen.length_law_plot import draw_length_law
     from homogenize.specimen.shear_lag import shear_lag
     from homogenize.specimen.shear_lag_plot import draw_shear_lag
 
     write_json(where / "specimen.json", record)
-    written = ["specimen.json"]
+    _draw_curves(where, found, solution.specimen.loaded.describe())
+    written = ["specimen.json", "stress_strain.png"]
     kinds = {region.name: region.kind for region in solution.mesh.regions}
     for k, load in enumerate(solution.loads):
         if load.kind == "tension":

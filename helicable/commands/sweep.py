@@ -12,7 +12,7 @@ from beam import Scenario, read_scenario
 from beam.parameter_sweep import sweep as run_sweep
 from beam.sweep_axis import CONSTANTS, Axis, read_axes, sweepable
 from beam.sweep_record import SweepFolder, read_manifest
-from geometry.errors import ConvergenceError, SpecError
+from geometry.errors import ConvergenceError, InputError, SpecError
 from helicable.beam_constants import beam_constants
 from helicable.commands.tow import REFERENCE_CABLE
 from helicable.options import JsonOption
@@ -92,7 +92,10 @@ def _tables(folder: SweepFolder) -> list[Path]:
 
     written = folder.write_tables()
     written.append(folder.path / "sweep.png")
-    sweep_figure(folder).savefig(written[-1], dpi=150)
+    try:
+        sweep_figure(folder).savefig(written[-1], dpi=150)
+    except OSError as error:
+        raise InputError(f"{written[-1]}: the picture cannot be written: {error}.") from None
     return written
 
 

@@ -8,8 +8,9 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from beam import TowingRun, builtin_scenarios, read_scenario
+from beam import TowingRun, accurate_settings, builtin_scenarios, read_scenario
 from beam import tow as run_towing
+from beam.towing_record import write_contact_table
 from effects.effect import ActiveEffect
 from effects.effect_record import read_effects
 from effects.rod_law import STRAINS_OF, RodLaw
@@ -45,6 +46,12 @@ def tow(
             "--effects", metavar="FILE", help="JSON of `helicable explain`: its section effects act in the rod."
         ),
     ] = None,
+    accurate: Annotated[
+        bool,
+        typer.Option(
+            "--accurate", help="Half the step, iterated nearly to round-off: energy closed to 1e-6 of the work."
+        ),
+    ] = False,
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with the run in DIR/run.nc that was ended from outside.")
     ] = False,
@@ -66,14 +73,17 @@ def tow(
         raise SpecError("--resume needs --out DIR, the folder in which the run was being written.")
     file = None if out is None else folder(out) / "run.nc"
     found = None if effects is None else section_effects(effects)
-    run, used = towing_run(scenario, constants, cable, element=element, file=file, resume=resume, found=found)
+    run, used = towing_run(
+        scenario, constants, cable, element=element, file=file, resume=resume, accurate=accurate, found=found
+    )
     show_run(run, used)
     record = towing_json(run, used)
     if found is not None:
         without, _ = towing_run(scenario, constants, cable, element=element)
         record["without_effects"] = show_change(without, run, found)
     if out is not None:
-        written = [run.write(folder(out) / "run.nc"), *draw_run(run, out)]
+        table_file = write_contact_table(run.dataset, folder(out) / "contacts.csv")
+        written = [run.write(folder(out) / "run.nc"), table_file, *draw_run(run, out)]
         record["run"] = str(written[0])
         write_json(out / "tow.json", record)
         say("written: " + ", ".join(map(str, written)))
@@ -91,6 +101,7 @@ def towing_run(
     file: Path | None = None,
     resume: bool = False,
     found: Sequence[ActiveEffect] | None = None,
+    accurate: bool = False,
 ) -> tuple[TowingRun, BeamConstants]:
     """Read a scenario, resolve its constants (`cell`, if given, is the section of the cable), and run it with progress.
 
@@ -104,7 +115,8 @@ def towing_run(
     used = beam_constants(read, cable, cell)
     with progress("towing") as tell:
         law = None if found is None else RodLaw(used.section, found)
-        run = run_towing(read, used.section, progress=tell, law=law, file=file, resume=resume)
+        settings = accurate_settings(read) if accurate else None
+        run = run_towing(read, used.section, progress=tell, law=law, file=file, resume=resume, settings=settings)
     return run, used
 
 
@@ -188,12 +200,27 @@ def run_rows(run: TowingRun) -> list[tuple[str, str]]:
         ("formula (23), largest", f"{r['formula_23_peak']:.1f} N"),
         ("energy balance error", f"{abs(r['energy_balance_error']):.1e} of the throughput"),
         ("static residual at the start", f"{r['static_residual']['force']:.1e} N"),
+        *contact_rows(r),
         ("deepest penetration", f"{1e3 * r['deepest_penetration']:.3f} mm"),
         (
             "time",
             f"{r['seconds_simulated']:.2f} s simulated in {r['seconds_wall']:.1f} s, {r['elements']} elements ({r['element']})",
         ),
     ]
+
+
+def contact_rows(record: dict[str, Any]) -> list[tuple[str, str]]:
+    """What the cable touches, at the end of the run."""
+    rows = []
+    for name, one in record["contacts"].items():
+        slip = one["slip_share_end"]
+        state = "no contact" if slip is None else f"{100 * slip:.0f} % of it slips"
+        if slip is not None and one["friction_max"] == 0:
+            state = "smooth"
+        rows.append(
+            (f"on the {name}, at the end", f"{one['normal_end']:.1f} N, friction {one['friction_end']:.1f} N, {state}")
+        )
+    return rows
 
 
 def show_run(run: TowingRun, used: BeamConstants) -> None:

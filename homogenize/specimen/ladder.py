@@ -14,15 +14,12 @@ averages, formula (3) of Ge et al., PLoS ONE 18(2) e0281136 (2023), and largest 
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, fields, replace
-from pathlib import Path
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
 from geometry.cell_mesh import CrossSectionMesh
-from geometry.errors import InputError
 from geometry.material import Material
 from homogenize.elastic_interface import Elastic
 from homogenize.helical_cell import solve_helical_cell
@@ -43,6 +40,7 @@ Progress = Callable[[float, str], None]
 
 TENSION = 2000.0
 SHEAR = 500.0
+LOAD_STEPS = (0.25, 0.5, 0.75, 1.0)
 SOFT = 1e9
 """Young's modulus [Pa] below which a part is neo-Hookean on the rung of large displacements."""
 _LOADS = (LoadCase("tension", TENSION), LoadCase("shear", SHEAR, "x"), LoadCase("shear", SHEAR, "y"))
@@ -99,17 +97,19 @@ def large_displacement_rung(
     name: str,
     specimen: Specimen,
     mesh: CrossSectionMesh,
-    shares: Sequence[float] = (0.25, 0.5, 0.75, 1.0),
+    shares: Sequence[float] = LOAD_STEPS,
     progress: Progress | None = None,
     remark: str = "",
 ) -> Rung:
     """Bonded, followed with large displacements; moduli are slopes of the line fitted to all shares, G the mean of both signs.
 
-    Soft parts are neo-Hookean.
+    Soft parts are neo-Hookean. The volume strain is that of the linear specimen, so that small loads have its numbers on the same mesh.
     """
     loads = [_LOADS[0], *(replace(load, size=s * load.size) for load in _LOADS[1:] for s in (1, -1))]
     soft = [r.name for r in mesh.regions if isinstance(r.material, Material) and r.material.E < SOFT]
-    followed = follow_specimen(specimen, mesh, loads, shares=tuple(shares), neo_hookean=soft, progress=progress)
+    followed = follow_specimen(
+        specimen, mesh, loads, shares=tuple(shares), volume_strain="full", neo_hookean=soft, progress=progress
+    )
     return _signed_rung(name, [followed_modulus(one, specimen.length) for one in followed], remark)
 
 
@@ -139,7 +139,15 @@ def _signed_rung(name: str, found: Sequence[ApparentModulus], remark: str) -> Ru
     return Rung(name, E, 0.5 * (G[0] + G[1]), 0.5 * (G[2] + G[3]), *(one.u_max for one in found), remark=remark)
 
 
-def ladder(
+@dataclass(frozen=True)
+class Step:
+    """A rung that has not been climbed: its name, and what computes it."""
+
+    name: str
+    climb: Callable[[Progress], Rung]
+
+
+def ladder_steps(
     mesh: CrossSectionMesh,
     specimen: Specimen,
     *,
@@ -148,9 +156,8 @@ def ladder(
     large: bool = True,
     coarse: CrossSectionMesh | None = None,
     coarse_grading: AxialGrading | None = None,
-    progress: Progress | None = None,
-) -> tuple[Rung, ...]:
-    """All rungs.
+) -> tuple[Step, ...]:
+    """All rungs, in order.
 
     Parameters
     ----------
@@ -163,57 +170,64 @@ def ladder(
     coarse, coarse_grading : section and layers of rungs 6 and 7, which cost most; rung 4 is repeated on them, so that each effect is seen
         against the same mesh
     """
-    tell = progress or (lambda fraction, sentence: None)
     end = replace(specimen, loaded=Traction(), interface="bonded")
-    tell(0.0, "the long cable")
-    rungs = list(long_cable_rungs(mesh, specimen.length))
-    tell(0.1, "the specimen with a rigid plate")
-    rungs.append(linear_rung("finite, rigid plate", replace(end, loaded=Plate()), mesh))
-    tell(0.2, "the specimen with a traction")
-    rungs.append(linear_rung("traction on the end-section", end, mesh))
-    tell(0.3, "the elastic interface")
     elastic = Interfaces({"conductor-insulation": Elastic(stiffness)})
-    rungs.append(linear_rung("elastic interface", replace(end, interface=elastic), mesh, f"{stiffness / 1e9:g} MPa/mm"))
     few = mesh if coarse is None else coarse
     short = end if coarse_grading is None else replace(end, grading=coarse_grading)
+
+    def linear(name: str, wanted: Specimen, on: CrossSectionMesh = mesh, remark: str = "") -> Step:
+        return Step(name, lambda tell: linear_rung(name, wanted, on, remark))
+
+    steps = [
+        Step("long cable, bonded", lambda tell: long_cable_rungs(mesh, specimen.length)[0]),
+        Step("twist released", lambda tell: long_cable_rungs(mesh, specimen.length)[1]),
+        linear("finite, rigid plate", replace(end, loaded=Plate())),
+        linear("traction on the end-section", end),
+        linear("elastic interface", replace(end, interface=elastic), remark=f"{stiffness / 1e9:g} MPa/mm"),
+    ]
     if (contact is not None or large) and (coarse is not None or coarse_grading is not None):
-        rungs.append(linear_rung("traction, coarse mesh", short, few, f"{len(few.cells)} triangles"))
+        steps.append(linear("traction, coarse mesh", short, few, f"{len(few.cells)} triangles"))
     if contact is not None:
-        watch = _part(tell, 0.4, 0.7)
-        rungs.append(
-            opening_rung("opening, rubbing cores", short, few, contact, progress=watch, remark=contact.describe())
-        )
+        name, law = "opening, rubbing cores", contact
+        steps.append(Step(name, lambda tell: opening_rung(name, short, few, law, progress=tell, remark=law.describe())))
     if large:
-        watch = _part(tell, 0.7, 1.0)
-        rungs.append(large_displacement_rung("large displacements", short, few, progress=watch, remark="bonded"))
+        last = "large displacements"
+        remark = f"{len(LOAD_STEPS)} load steps, bonded"
+        steps.append(
+            Step(last, lambda tell: large_displacement_rung(last, short, few, LOAD_STEPS, progress=tell, remark=remark))
+        )
+    return tuple(steps)
+
+
+def ladder(
+    steps: Sequence[Step],
+    progress: Progress | None = None,
+    *,
+    kept: Sequence[Rung] = (),
+    done: Callable[[Sequence[Rung]], None] | None = None,
+) -> tuple[Rung, ...]:
+    """Climb the steps one after another.
+
+    Parameters
+    ----------
+    steps : see :func:`ladder_steps`
+    progress : is told the fraction and what is being climbed
+    kept : rungs of an earlier run that was stopped, which are not climbed again
+    done : is handed all rungs so far after each one that was climbed, for instance to keep them
+    """
+    tell = progress or (lambda fraction, sentence: None)
+    old, rungs = {rung.name: rung for rung in kept}, []
+    for i, step in enumerate(steps):
+        found = old.get(step.name)
+        tell(i / len(steps), step.name if found is None else f"{step.name}: kept from before")
+        if found is None:
+            found = step.climb(_part(tell, i / len(steps), (i + 1) / len(steps), step.name))
+            if done:
+                done([*rungs, found])
+        rungs.append(found)
     tell(1.0, "the ladder is climbed")
     return tuple(rungs)
 
 
-def _part(tell: Progress, low: float, high: float) -> Progress:
-    return lambda fraction, sentence: tell(low + (high - low) * fraction, sentence)
-
-
-def write_ladder(rungs: Sequence[Rung], path: Path, about: str) -> None:
-    """Write a record: what it is about, and the rungs."""
-    path.write_text(
-        json.dumps({"about": about, "rungs": [asdict(r) for r in rungs]}, indent=1) + "\n", encoding="utf-8"
-    )
-
-
-def read_ladder(path: Path) -> tuple[str, tuple[Rung, ...]]:
-    """What a record is about, and its rungs.
-
-    Raises
-    ------
-    InputError
-        If the file is not a record of a ladder.
-    """
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        return str(found["about"]), tuple(Rung(**r) for r in found["rungs"])
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        names = ", ".join(f.name for f in fields(Rung))
-        raise InputError(
-            f"{path} is not a record of a ladder ({error}); it needs about and rungs with {names}."
-        ) from None
+def _part(tell: Progress, low: float, high: float, name: str) -> Progress:
+    return lambda fraction, sentence: tell(low + (high - low) * fraction, f"{name}: {sentence}")

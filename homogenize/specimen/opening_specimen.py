@@ -2,7 +2,8 @@ r"""A specimen whose parts open and rub: one path of loads after another from th
 
 Small displacements. At each load the jumps solve :math:`G(j) = j - s j_0 - \tilde C q(j) = 0`
 (:mod:`homogenize.specimen.contact_condensation`) by a semismooth Newton method: only points that are open or slip have a q, so that
-its matrix :math:`I - \tilde C\, dq/dj` is reduced to these points; where they are many, GMRES solves for the step.
+its matrix :math:`I - \tilde C\, dq/dj` is reduced to these points; where they are many, the forces are found instead
+(:mod:`homogenize.specimen.contact_forces`), to the same error of the jumps.
 Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375, doi 10.1016/0045-7825(91)90022-X.
 
 The initial state comes first: an interference is let go without a load, a grip is in balance already. Where an observed displacement under
@@ -15,11 +16,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse.linalg as spla
 from numpy.typing import NDArray
 
 from geometry.errors import ConvergenceError, SpecError
 from homogenize.specimen.contact_condensation import ContactSpecimen, FloatArray
+from homogenize.specimen.contact_forces import contact_forces
 from homogenize.specimen.frictional_contact import ContactState, at_rest, contact_law, dissipation
 
 Progress = Callable[[float, str], None]
@@ -28,9 +29,10 @@ TOLERANCE = 1e-7
 """Largest error of a jump, over the largest jump of the holding specimen under its loads or the largest gap."""
 MOST_ITERATIONS = 25
 MOST_CUTS = 4
-MOST_FROZEN = 8
-_DIRECT = 600
-"""Jumps up to which a Newton step is solved directly; above that by GMRES, to a thousandth."""
+_MOST_LOOSE = 0.4
+"""Share of the points above which the forces are the better unknowns."""
+_FEW = 100
+"""Loose points that are few in any specimen."""
 _SHARES = (1.0, 0.5, 0.25, 0.1, 0.03)
 """Of a Newton step, tried one after another until the residual falls."""
 
@@ -46,6 +48,7 @@ class ContactStep:
     strain : (3,) volume averages of e_zz, g_xz, g_yz
     state : of the contacts
     dissipated : by friction since the start of the path [J]
+    resultants : (12,) forces and moments about the centre of z = 0 from the held and from the loaded end; their sum should vanish
     """
 
     share: float
@@ -53,6 +56,7 @@ class ContactStep:
     strain: FloatArray
     state: ContactState
     dissipated: float
+    resultants: FloatArray
 
     def open_share(self, area: FloatArray) -> float:
         """Share of the contact surface without pressure."""
@@ -129,7 +133,8 @@ def even_and_odd(plus: float, minus: float) -> tuple[float, float]:
 def _observed(specimen: ContactSpecimen, load: int, share: float, state: ContactState, lost: float) -> ContactStep:
     q = _excess(specimen, state.jump.ravel(), state)
     seen = share * specimen.observed[:, load] + specimen.columns @ q
-    return ContactStep(share, seen[:-3].reshape(-1, 3), seen[-3:], state, lost)
+    face, strain, resultants = np.split(seen, [3 * specimen.faces, 3 * specimen.faces + 3])
+    return ContactStep(share, face.reshape(-1, 3), strain, state, lost, resultants)
 
 
 def _excess(specimen: ContactSpecimen, jump: FloatArray, state: ContactState) -> FloatArray:
@@ -168,20 +173,18 @@ def _settled(
 ) -> tuple[ContactState | None, float]:
     """The state at one load, None if it is not found, and the error of the jumps; `ahead` is what they would do if all held.
 
-    Where Newton fails from there, friction is frozen at the last pressures a few times first (a convex problem each time).
+    Newton's method from there, while most points hold; else :mod:`homogenize.specimen.contact_forces`.
     """
     start = before.jump.ravel() + ahead
     found, error = _newton(specimen, base, start, before)
-    pressure = before.pressure
-    for _ in range(MOST_FROZEN):
-        if found is not None:
-            return found, error
-        frozen, error = _newton(specimen, base, start, before, pressure)
-        if frozen is None:
-            break
-        start, pressure = frozen.jump.ravel(), 0.5 * (pressure + frozen.pressure)
-        found, error = _newton(specimen, base, start, before)
+    if found is None:
+        found, error = contact_forces(specimen, base, start, before, TOLERANCE, _size(specimen))
     return found, error
+
+
+def _size(specimen: ContactSpecimen) -> float:
+    """A large jump [m]."""
+    return max(float(np.abs(specimen.jump).max()), float(np.abs(specimen.constants.gap).max()))
 
 
 def _newton(
@@ -189,14 +192,12 @@ def _newton(
     base: FloatArray,
     start: FloatArray,
     before: ContactState,
-    pressed: FloatArray | None = None,
 ) -> tuple[ContactState | None, float]:
-    """Semismooth Newton from `start`."""
-    springs, area = specimen.springs(), specimen.area
-    size = max(float(np.abs(specimen.jump).max()), float(np.abs(specimen.constants.gap).max()))
+    """Semismooth Newton from `start`, given up where more than :data:`_MOST_LOOSE` of the points are open or slip."""
+    springs, area, size = specimen.springs(), specimen.area, _size(specimen)
 
     def residual(jump: FloatArray) -> tuple[FloatArray, ContactState, FloatArray]:
-        state, force, tangent = contact_law(jump.reshape(-1, 3), before, specimen.constants, pressed)
+        state, force, tangent = contact_law(jump.reshape(-1, 3), before, specimen.constants)
         q = springs * jump - (area[:, None] * force).ravel()
         return jump - base - specimen.compliance @ q, state, tangent
 
@@ -209,6 +210,8 @@ def _newton(
             return state, error
         slope = springs.reshape(-1, 3)[:, :, None] * np.eye(3) - area[:, None, None] * tangent
         loose = np.flatnonzero(np.abs(slope).max(axis=(1, 2)) > 1e-9 * springs.reshape(-1, 3).max(axis=1))
+        if len(loose) > max(_MOST_LOOSE * len(area), _FEW):
+            break
         step = _step(specimen.compliance, G, slope[loose], loose)
         tried = []
         for share in _SHARES:
@@ -232,11 +235,6 @@ def _step(C: FloatArray, G: FloatArray, slope: FloatArray, loose: NDArray[np.int
     def excess(x: FloatArray) -> FloatArray:
         return np.einsum("kij,kj->ki", slope, x.reshape(-1, 3)).ravel()
 
-    if len(at) > _DIRECT:
-        operator = spla.LinearOperator(inside.shape, lambda x: x - inside @ excess(x))
-        x, failed = spla.gmres(operator, -G[at], rtol=1e-3, restart=80, maxiter=4, atol=0.0)
-        if not failed:
-            return columns @ excess(x) - G
     blocks = np.einsum("nki,kij->nkj", inside.reshape(len(at), -1, 3), slope, optimize=True).reshape(len(at), -1)
     return columns @ excess(np.linalg.solve(np.eye(len(at)) - blocks, -G[at])) - G
 

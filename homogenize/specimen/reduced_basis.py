@@ -86,8 +86,17 @@ class ReducedBasis:
         self.load = np.zeros((system.field.unknowns, 3))
         for k, component in enumerate((2, 0, 1)):
             self.load[component::3, k] = self.weights
-        self.V = np.zeros((system.field.unknowns * len(self.axial.stations), 0))
+        stations = len(self.axial.stations)
+        self.V = np.zeros((system.field.unknowns * stations, 0))
         self.places: list[ReducedPlace] = []
+        self._small: dict[tuple[str, int], FloatArray] = {}
+        self._slopes = area_derivatives(system.field)
+        self._tilt = np.zeros((2, stations, 0))
+
+    @property
+    def layers(self) -> Layers:
+        """The layers of every specimen of this basis, as shares of its length; stands where a grading does."""
+        return Layers(self.axial)
 
     def full(self, place: ReducedPlace) -> SpecimenSolution:
         """The full solution on this mesh; loads of 1 N in the axes of the loaded section."""
@@ -97,7 +106,7 @@ class ReducedBasis:
         )
         mesh = replace(self.mesh, regions=regions, twist_rate=place.twist_rate)
         specimen = replace(
-            self.specimen, length=place.length, phase=-place.twist_rate * place.length, grading=_Levels(self.axial)
+            self.specimen, length=place.length, phase=-place.twist_rate * place.length, grading=self.layers
         )
         return solve_specimen(specimen, mesh, UNIT_LOADS, tolerance=self.tolerance)
 
@@ -120,25 +129,36 @@ class ReducedBasis:
         for _ in range(2):
             new = new - self.V @ (self.V.T @ new)
         Q, s, _ = np.linalg.svd(new, full_matrices=False)
-        self.V = np.concatenate([self.V, Q[:, s > 1e-9]], axis=1)
+        if (s > 1e-9).any():
+            self._extend(Q[:, s > 1e-9])
         self.places.append(place)
-        self._project()
 
-    def _project(self) -> None:
+    def _extend(self, new: FloatArray) -> None:
+        """The small matrices with new columns: those of the old ones stay as they are."""
         n, m = self.field.unknowns, len(self.axial.stations)
-        V = self.V.reshape(n, m, -1)
-        r = V.shape[2]
+        old = self.V
+        self.V = np.concatenate([old, new], axis=1)
+        r, k = old.shape[1], new.shape[1]
+        q = new.reshape(n, m, k)
         M, C, S = self.axial.matrices
-        flat, small = V.reshape(n, m * r), {}
         for (kind, power), matrices in self.terms.items():
             axial = {"E2": M, "E1": C, "E0": S}[kind]
-            left = np.matmul(axial.T, V).reshape(n * m, r)
-            small[kind, power] = np.array([left.T @ (E @ flat).reshape(n * m, r) for E in matrices])
-        self._small = small
-        self._top = V[:, -1]
+            small = np.zeros((len(matrices), r + k, r + k))
+            if (kind, power) in self._small:
+                small[:, :r, :r] = self._small[kind, power]
+            right = np.matmul(axial, q).reshape(n, m * k)
+            small[:, :, r:] = _products(self.V, matrices, right, k)
+            if kind == "E1":
+                left = np.matmul(axial.T, q).reshape(n, m * k)
+                transposed = [sp.csr_array(E.T) for E in matrices]
+                small[:, r:, :r] = _products(old, transposed, left, k).transpose(0, 2, 1)
+            else:  # symmetric
+                small[:, r:, :r] = small[:, :r, r:].transpose(0, 2, 1)
+            self._small[kind, power] = small
+        self._top = self.V.reshape(n, m, -1)[:, -1]
         self._load = self.load.T @ self._top
-        fx = area_derivatives(self.field)
-        self._tilt = np.array([np.tensordot(f, V, axes=(0, 0)) for f in fx])  # (2 or 4, m, r)
+        tilt = np.array([np.tensordot(f, q, axes=(0, 0)) for f in self._slopes])
+        self._tilt = np.concatenate([self._tilt, tilt], axis=2)  # (2, m, r)
 
     def stiffness(self, place: ReducedPlace) -> FloatArray:
         """V^T K V at a place."""
@@ -197,7 +217,7 @@ class ReducedBasis:
 
 
 @dataclass(frozen=True)
-class _Levels:
+class Layers:
     """Layers at the same shares of every length."""
 
     axial: AxialBasis
@@ -205,6 +225,12 @@ class _Levels:
     def basis(self, length: float, diameter: float) -> AxialBasis:
         del diameter
         return AxialBasis(self.axial.levels * length, self.axial.degree)
+
+
+def _products(V: FloatArray, matrices: Sequence[sp.csr_array], columns: FloatArray, k: int) -> FloatArray:
+    """V^T (E x) of each section matrix E for k columns x held as (n, m k): (matrices, r, k)."""
+    stacked = np.concatenate([(E @ columns).reshape(-1, k) for E in matrices], axis=1)
+    return (V.T @ stacked).reshape(V.shape[1], len(matrices), k).transpose(1, 0, 2)
 
 
 def grow(

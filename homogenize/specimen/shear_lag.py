@@ -50,9 +50,13 @@ class ShearLag:
 
 
 def shear_lag(solution: SpecimenSolution, load: int = 0) -> ShearLag:
-    """Axial force of every part at the Gauss points of the length, under one load case."""
+    """Axial force of every part at the Gauss points of the length, under one load case.
+
+    Each layer's forces are replaced by the parabola nearest to them: at the rim between two materials of the loaded face the stress is
+    singular, and polynomials of a higher degree swing about it.
+    """
     field, T = solution.system.field, solution.system.T
-    z, _, N, D = solution.operator.axial.quadrature
+    z, weight, N, D = solution.operator.axial.quadrature
     U = solution.U[:, :, load]
     forces = []
     for number in range(len(solution.mesh.regions)):
@@ -61,7 +65,24 @@ def shear_lag(solution: SpecimenSolution, load: int = 0) -> ShearLag:
             inner, across = T.T @ inner, T.T @ across
         forces.append(N @ (inner @ U) + D @ (across @ U))
     names = tuple(region.name for region in solution.mesh.regions)
-    return ShearLag(z, names, np.array(forces), solution.loads[load].name)
+    smooth = _parabolas(z, weight, solution.operator.axial.layers)
+    return ShearLag(
+        z,
+        names,
+        np.einsum("lgh,plh->plg", smooth, np.array(forces).reshape(len(names), *smooth.shape[:2])).reshape(
+            len(names), -1
+        ),
+        solution.loads[load].name,
+    )
+
+
+def _parabolas(z: FloatArray, weight: FloatArray, layers: int) -> FloatArray:
+    """(layers, g, g) from values at the Gauss points of a layer to those of the parabola of least squares."""
+    z, weight = z.reshape(layers, -1), weight.reshape(layers, -1)
+    x = (z - z.mean(axis=1, keepdims=True)) / np.ptp(z, axis=1)[:, None]
+    A = x[:, :, None] ** np.arange(3)
+    B = A.transpose(0, 2, 1) * weight[:, None, :]
+    return A @ np.linalg.solve(B @ A, B)
 
 
 def grouped(lag: ShearLag, kind_of: dict[str, str]) -> ShearLag:

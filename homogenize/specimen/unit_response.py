@@ -61,10 +61,11 @@ class UnitResponse:
 
 
 def unit_response(solution: SpecimenSolution) -> UnitResponse:
-    """The response of a bonded specimen that was solved for UNIT_LOADS at the phase -tau_0 L."""
-    field, axial = solution.system.field, solution.operator.axial
-    top = solution.U[:, -1].reshape(-1, 3, 3)
-    local = np.einsum("dn,nmk->dmk", area_derivatives(field), solution.U) / field.area
+    """The response of a specimen that was solved for UNIT_LOADS at the phase -tau_0 L."""
+    field, axial, nodal = solution.system.field, solution.operator.axial, solution.nodal
+    top = nodal[:, :, -1]
+    flat = nodal.reshape(-1, *nodal.shape[2:])
+    local = np.einsum("dn,nmk->dmk", area_derivatives(field), flat) / field.area
     mean = np.einsum("n,nxk->xk", node_shares(field), top)
     return UnitResponse(
         field.area, solution.specimen.length, top, mean, mean_tilt(local, axial, solution.mesh.twist_rate)

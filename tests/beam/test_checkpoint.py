@@ -36,10 +36,16 @@ def test_restart_is_bit_exact(tmp_path):
 
 
 def test_checkpoint_of_another_run_is_refused(tmp_path):
-    """Other step settings, and a file that is none."""
+    """Other step settings, another model, a file that is none, one with damaged bytes."""
     path = write_checkpoint(pulled(), tmp_path / "run.checkpoint")
-    with pytest.raises(InputError, match="another model or with other step settings"):
+    with pytest.raises(InputError, match=r"other step settings \(largest_step 0.005, not 0.001\)"):
         read_checkpoint(pulled(1e-3), path)
+    with pytest.raises(InputError, match="run of another model"):
+        model = cable_on_floor(8, [], length=2.0)
+        read_checkpoint(Integrator(model, model.q0, settings=StepSettings(5e-3)), path)
+    (tmp_path / "torn").write_bytes(path.read_bytes()[:-40].replace(b"beam.newton_step", b"beam.newton_stop"))
+    with pytest.raises(InputError, match="no checkpoint"):
+        read_checkpoint(pulled(), tmp_path / "torn")
     (tmp_path / "no").write_bytes(b"no")
     with pytest.raises(InputError, match="no checkpoint"):
         read_checkpoint(pulled(), tmp_path / "no")

@@ -9,6 +9,7 @@ from beam.rod import Rod
 from beam.rod_model import RodModel, Support
 from beam.shape import straight
 from beam.statics import equilibrium
+from beam.surface import ContactLaw, Plane
 from geometry.errors import ConvergenceError, SpecError
 from homogenize.section_stiffness import SectionInertia, SectionStiffness
 
@@ -52,6 +53,16 @@ def test_step_that_does_not_converge_is_cut_never_accepted():
     assert motion.outcome.status is Status.NOT_CONVERGED
     assert "node" in motion.outcome.detail and motion.counters.cuts > 5
     assert motion.t == 0.0
+
+
+def test_a_cut_names_the_contact_also_without_friction():
+    """A smooth floor under a cable that is dropped, and an impossible tolerance."""
+    floor = Plane("ice", ContactLaw(friction=0.0), offset=1e-3)
+    model = RodModel(ROD, straight(ROD.s), [], gravity=(0.0, -9.81, 0.0), surfaces=[floor])
+    settings = StepSettings(1e-2, relative=0.0, absolute=0.0, iterations=3)
+    motion = Integrator(model, model.q0, settings=settings)
+    assert not motion.advance(1)
+    assert "(on ice)" in motion.outcome.detail
 
 
 def test_stopped_towing_run_keeps_its_frames():

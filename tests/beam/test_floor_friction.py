@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from beam.benchmark_dynamics import incline
-from beam.benchmark_friction import LENGTH, MU, cable_on_floor, exact_stick, pulled_cable, stick_slip
+from beam.benchmark_friction import LENGTH, MU, WEIGHT, cable_on_floor, exact_stick, pulled_cable, stick_slip
 from beam.generalized_alpha import Integrator, StepSettings
 
 
@@ -39,3 +39,22 @@ def test_steeper_slope_slides():
 def test_towing_force_on_an_incline(slope):
     """Formulas (22), (23): steady towing needs m g L (mu cos + sin); 0.5 %."""
     assert not [b.sentence() for b in incline(slope) if not b.passed]
+
+
+def test_a_jolt_does_not_strain_the_bristle():
+    """Friction is at its limit by the damping alone, the anchor stays: kt |b| < mu f_n. Dragged, it carries mu f_n exactly."""
+    model = cable_on_floor(2, [], length=1.0)
+    q, still = model.q0, np.zeros_like(model.q0)
+    anchors = model.forces(0.0, q, still, model.fresh_anchors()).moved
+    v = still.copy()
+    v[:, 0] = 1.0
+    jolt = model.forces(0.0, q, v, anchors)
+    assert jolt.F[:, 0].sum() == pytest.approx(MU * WEIGHT, rel=1e-12)
+    np.testing.assert_array_equal(jolt.moved[0], anchors[0])
+    assert jolt.bristle == 0.0
+    apart = q.copy()
+    apart[:, 0] += 1e-2
+    dragged = model.forces(0.0, apart, still, anchors)
+    limit = MU * WEIGHT
+    assert dragged.F[:, 0].sum() == pytest.approx(limit, rel=1e-12)
+    assert dragged.bristle == pytest.approx(0.5 * limit**2 / (5.0 * 1.25e6), rel=1e-9)

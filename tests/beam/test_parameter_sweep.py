@@ -144,7 +144,7 @@ def test_many_values_make_a_map(scenario, done, monkeypatch):
 
 
 def test_nothing_is_computed_twice(scenario, done, monkeypatch):
-    """The same sweep again finds all its rows; one that was deleted is made again, alone."""
+    """The same sweep again finds all its rows; one that was deleted is made again, alone; a damaged one is a sentence."""
     import beam.parameter_sweep as module
 
     asked = []
@@ -153,7 +153,11 @@ def test_nothing_is_computed_twice(scenario, done, monkeypatch):
     sweep(scenario, done.axes, done.path)
     assert asked == []
     _, id = done.places[2]
-    (done.path / "runs" / f"{id}.json").unlink()
+    file = done.path / "runs" / f"{id}.json"
+    file.write_text("{")
+    with pytest.raises(InputError, match="delete it and repeat the command"):
+        done.rows()
+    file.unlink()
     sweep(scenario, done.axes, done.path)
     assert asked == [id]
 
@@ -187,6 +191,18 @@ def test_an_unreachable_scheduler_is_a_sentence(scenario, tmp_path, monkeypatch)
             sweep(scenario, read_axes(["friction=0.2"], scenario), tmp_path / "a", scheduler=address)
     with pytest.raises(InputError, match="0 workers"):
         sweep(scenario, read_axes(["friction=0.2"], scenario), tmp_path / "b", workers=0)
+
+
+def test_a_scheduler_without_workers_is_a_sentence(scenario, tmp_path, monkeypatch):
+    """It is reached, but nobody works there: the sweep ends instead of waiting for ever."""
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(pool, "WORKER_SECONDS", 0.3)
+    settings = {"processes": False, "dashboard_address": None, "host": "tcp://127.0.0.1", "silence_logs": 50}
+    with (
+        distributed.LocalCluster(n_workers=0, **settings) as cluster,
+        pytest.raises(InputError, match="has had no workers or was out of reach"),
+    ):
+        sweep(scenario, read_axes(["friction=0.2"], scenario), tmp_path, scheduler=cluster.scheduler_address)
 
 
 def test_a_scheduler_gives_the_same_rows(scenario, done, tmp_path):

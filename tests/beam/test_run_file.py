@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from beam import read_scenario, tow
+from beam import accurate_settings, read_scenario, tow
 from beam.record_file import RecordFile
 from geometry.errors import InputError
 
@@ -113,7 +113,7 @@ def test_a_killed_run_is_readable_and_goes_on_bit_by_bit(scenario, whole, tmp_pa
 
 
 def test_nothing_to_resume_is_a_sentence(scenario, whole, tmp_path):
-    """No file, no run in it, a complete run, a run of something else."""
+    """No file, no run in it, a complete run, a run of something else or with other steps."""
     path = whole.frames.file.path
     with pytest.raises(InputError, match="there is no run in"):
         tow(scenario, file=tmp_path / "none.nc", resume=True)
@@ -133,6 +133,10 @@ def test_nothing_to_resume_is_a_sentence(scenario, whole, tmp_path):
         tow(scenario, file=tmp_path / "run.nc", progress=stop)
     with pytest.raises(InputError, match=r"drive.speed = 6.86 m/min \(published\), not 9 m/min"):
         tow(scenario.changed(drive__speed="9 m/min"), file=tmp_path / "run.nc", resume=True)
+    with pytest.raises(
+        InputError, match=r"other step settings \(largest_step 0.005, not 0.0025; relative 1e-06, not 1e-08"
+    ):
+        tow(scenario, settings=accurate_settings(scenario), file=tmp_path / "run.nc", resume=True)
     (tmp_path / "run.checkpoint").unlink()
     with pytest.raises(InputError, match="ended before its first checkpoint"):
         tow(scenario, file=tmp_path / "run.nc", resume=True)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from beam import point_force as lanes
 from beam.generalized_alpha import Integrator, StepSettings
-from beam.point_force import point_force, rotary_force
 from beam.rod import Rod
 from beam.rod_model import RodModel
 from beam.rotation_vector import rotation_coefficients, rotation_matrix
@@ -79,25 +79,30 @@ def test_energy_and_angular_momentum_are_kept():
         np.testing.assert_allclose(R @ (inertia * omega), inertia * OMEGA, rtol=0, atol=bound * 6)
 
 
-def test_scalar_kernels_are_the_formulas():
-    """point_force and rotary_force against gauss_force and rotary_inertia at random states: round-off."""
+def test_eight_points_at_once_are_the_formulas():
+    """point_forces against gauss_force and rotary_inertia at eight random states: round-off."""
     rng = np.random.default_rng(2)
     A = rng.normal(size=(6, 6))
     C, D = A @ A.T, 0.1 * A.T @ A
-    z, zdot, acc, E0 = rng.normal(size=9), rng.normal(size=9), rng.normal(size=3), rng.normal(size=(1, 1, 6))
-    E, rate, S, f = np.zeros(6), np.zeros(6), np.zeros((1, 1, 6)), np.zeros(9)
-    coefficients = rotation_coefficients(float(z[:3] @ z[:3]))
-    energies = gauss_force(z, zdot, C, D, E0[0, 0], E, rate, S[0, 0], f)
-    T = np.zeros((1, 1, 6))
-    out = point_force(*z, *zdot, *coefficients, C, D, E0, 0, 0, True, T)
-    np.testing.assert_allclose(out[:2], energies, rtol=1e-12)
-    np.testing.assert_allclose(out[2:], f, rtol=1e-11, atol=1e-11)
-    np.testing.assert_allclose(T, S, rtol=1e-11, atol=1e-11)
-    g, nodes, H = np.zeros(9), np.zeros((2, 12)), np.zeros((1, 8))
-    rotary_inertia(z, zdot, acc, J, g)
-    nodes[0, 6:9], H[0, 0] = acc, 1.0
-    found = rotary_force(*z[:3], *zdot[:3], *coefficients[1:], nodes, 0, H, 0, 1.0, J)
-    np.testing.assert_allclose(found[1:], g[:3], rtol=1e-11, atol=1e-11)
+    z, zdot, acc, E0 = (rng.normal(size=(8, k)) for k in (9, 9, 3, 6))
+    W, H = np.zeros(lanes.END), np.zeros((1, 8))
+    H[0, 0] = H[0, 5] = 1.0  # the first node's values and slopes
+    order = [6, 7, 8, 9, 10, 11, 3, 4, 5]
+    for k in range(9):
+        W[order[k] * lanes.ROW :][:8], W[(12 + order[k]) * lanes.ROW :][:8] = z[:, k], zdot[:, k]
+    for k in range(3):
+        W[(30 + k) * lanes.ROW :][:8] = acc[:, k]
+    W[lanes.LENGTH : lanes.LENGTH + 16] = 1.0
+    W[lanes.REST : lanes.SHIFT] = E0.T.ravel()
+    W[lanes.STIFF : lanes.DAMP], W[lanes.DAMP : lanes.FORCE] = np.repeat(C, 8), np.repeat(D, 8)
+    lanes.point_forces(W, H, 0, 1.0, J[0], J[1], J[2], 0.0, 0.0)
+    for k in range(8):
+        E, rate, S, f, g = np.zeros(6), np.zeros(6), np.zeros(6), np.zeros(9), np.zeros(9)
+        energies = gauss_force(z[k], zdot[k], C, D, E0[k], E, rate, S, f)
+        rotary_inertia(z[k], zdot[k], acc[k], J, g)
+        np.testing.assert_allclose(W[lanes.ENERGY + k :: 8][:2], energies, rtol=1e-12)
+        np.testing.assert_allclose(W[lanes.FORCE + k :: 8][:9], f + g, rtol=1e-11, atol=1e-11)
+        np.testing.assert_allclose(W[lanes.SECTION + k :: 8][:6], S, rtol=1e-11, atol=1e-11)
 
 
 def test_rotary_inertia_is_the_derivative_of_angular_momentum():

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from beam import read_scenario, tow
+from beam import accurate_settings, read_scenario, tow
 from geometry.errors import InputError
 
 
@@ -26,7 +26,13 @@ def test_every_variable_has_unit_and_meaning(run):
     assert run.status == "completed"
     for name, variable in data.data_vars.items():
         assert variable.attrs["units"] and variable.attrs["long_name"], name
-        assert np.isfinite(variable.values).all(), name
+        if name not in (
+            "contact_gap",
+            "contact_slip",
+            "surface_gap",
+            "surface_slip",
+        ):  # not a number where nothing touches
+            assert np.isfinite(variable.values).all(), name
     assert data.sizes == {
         "time": 61, "node": 101, "axis": 3, "section_axis": 3, "source": 9, "element": 100, "gauss": 3, "strain": 6, "surface": 3,
     }  # fmt: skip
@@ -96,11 +102,8 @@ def test_energy_is_closed(run):
 
 
 def test_energy_is_closed_to_a_millionth_of_the_work_done(run):
-    """At every instant, with the iteration taken to round-off and half the step; the rest falls with the step's square."""
-    from beam.generalized_alpha import StepSettings
-
-    settings = StepSettings(2.5e-3, relative=1e-9, absolute=1e-5, iterations=30)
-    fine = tow(run.scenario, settings=settings).dataset
+    """At every instant, with the accurate settings: what `helicable tow --accurate` does."""
+    fine = tow(run.scenario, settings=accurate_settings(run.scenario)).dataset
     work = float(fine["energy"].sel(source="drive_work")[-1])
     assert work > 10
     assert np.abs(fine["energy_error"].values).max() < 1e-6 * work

@@ -85,6 +85,60 @@ def test_optimum_is_that_of_the_full_model():
     assert found.runs[0].disagreement > 0.1
 
 
+class Tangent:
+    """A cheap model that knows the true one, less a factor, near its latest refinements only: nearest value and slope in ln."""
+
+    def __init__(self, true, start):
+        self.true, self.places = true, []
+        self.refine(start)
+
+    def refine(self, values):
+        self.places.append(np.log([values[n] for n in "abc"]))
+
+    def __call__(self, values):
+        x = np.log([values[n] for n in "abc"])
+        near = min(self.places, key=lambda y: float(np.abs(y - x).sum()))
+
+        def at(y):
+            found = self.true(dict(zip("abc", np.exp(y), strict=True)))
+            return np.log([found["E"], found["u_z"]])
+
+        slope = np.array([(at(near + d) - at(near - d)) / 2e-4 for d in 1e-4 * np.eye(3)])
+        return dict(zip(("E", "u_z"), 0.9 * np.exp(at(near) + (x - near) @ slope), strict=True))
+
+
+def bent(values):
+    """E = a^2 / b + b / 4, u_z = c / (1 + a / 10): logarithms are no straight lines."""
+    return {"E": values["a"] ** 2 / values["b"] + values["b"] / 4, "u_z": values["c"] / (1 + values["a"] / 10)}
+
+
+def test_cheap_model_is_refined_where_it_is_searched():
+    """A tangent that moves along ends at the optimum of the full model, with the derivatives of the full model there."""
+    cheap = Tangent(bent, dict.fromkeys("abc", 1.0))
+    found = calibrate_inputs(TARGETS, PARAMETERS, cheap, bent, refine=cheap.refine, starts=4)
+    assert found.agreed and found.ratios == pytest.approx({"E": 1.0, "u_z": 1.0}, rel=0.005)  # the agreement asked for
+    assert len(found.runs) <= 4
+    x = np.log([found.best.inputs[n] for n in "abc"])
+    J = np.zeros((2, 3))
+    for j in range(3):
+        ends = [bent(dict(zip("abc", np.exp(x + s * 1e-4 * np.eye(3)[j]), strict=True))) for s in (1, -1)]
+        J[:, j] = [np.log(ends[0][k] / ends[1][k]) / 2e-4 / 0.02 for k in ("E", "u_z")]
+    exact = identifiability(J, x, np.log(np.full(3, 0.1)), np.log(np.full(3, 10.0)), "abc")
+    assert found.identifiability.standard_error == pytest.approx(exact.standard_error, rel=0.02)  # within a step's bend
+    steps = np.abs(np.array(cheap.places) - x) / np.log(100)
+    assert all((np.abs(steps[:, j] - 0.05) < 0.01).any() for j in range(3))  # a step along every input
+
+
+def test_search_comes_back_from_past_infinity():
+    """E = 1 / (1/a - 1/2) is negative above a = 2: a start there has no logarithm, and still finds a = 1 where E = 2."""
+
+    def model(values):
+        return {"E": 1 / (1 / values["a"] - 0.5)}
+
+    found = calibrate_inputs([TARGETS[0]], PARAMETERS[:1], model, model, starts=0, first=np.log([8.0]))
+    assert found.best.inputs["a"] == pytest.approx(1.0, rel=1e-4)
+
+
 def test_no_parameter_leaves_its_range():
     """A target that asks for more than the ranges give ends at the bound, and says so."""
     found = calibrate_inputs([target("E", 1e4), TARGETS[1]], PARAMETERS, power_law, power_law, starts=4)

@@ -7,6 +7,7 @@ import pytest
 
 from geometry import read_cable
 from helicable.main import main
+from homogenize import Elastic, Interfaces
 from homogenize.specimen import Specimen, solve_specimen
 from homogenize.specimen.specimen_mesh import specimen_mesh
 from homogenize.specimen.unit_response import UNIT_LOADS, unit_response
@@ -60,7 +61,24 @@ range = ["150 MPa", "600 MPa"]
 status = "assumed"
 reason = "made up"
 """
-RUN = ("--size", "8 mm", "--coarse", "10 mm", "--snapshots", "3", "--starts", "1", "--runs", "4")
+INTERFACE = """
+title = "an interface of 0.2 MPa/mm"
+{targets}
+[[parameters]]
+name = "length"
+moves = ["length"]
+range = ["98 mm", "102 mm"]
+status = "assumed"
+reason = "made up"
+[[parameters]]
+name = "grip"
+moves = ["interface.conductor-sheath"]
+range = ["0.01 MPa/mm", "10 MPa/mm"]
+status = "assumed"
+reason = "made up"
+"""
+TARGET = '[[targets]]\nname = "{}"\nvalue = "{} {}"\nerror = 0.01\nload = "x"\nsource = "made up"\n'
+RUN = ("--size", "11 mm", "--coarse", "14 mm", "--snapshots", "3", "--starts", "1", "--runs", "4")
 
 
 @pytest.fixture(scope="module")
@@ -71,11 +89,10 @@ def made(tmp_path_factory):
     (folder / "truth.toml").write_text(
         CABLE.replace('"400 MPa"', '"250 MPa"').replace('"5 MPa", status', '"8 MPa", status')
     )
-    mesh = specimen_mesh(read_cable(folder / "truth.toml"), 8e-3)
+    mesh = specimen_mesh(read_cable(folder / "truth.toml"), 11e-3)
     truth = unit_response(solve_specimen(Specimen(0.1), mesh, UNIT_LOADS, tolerance=1e-4)).outputs(2000.0, 500.0)
-    entry = '[[targets]]\nname = "{}"\nvalue = "{} {}"\nerror = 0.01\nload = "x"\nsource = "made up"\n'
     units = {"E": "Pa", "u_z": "m", "u_x": "m"}
-    targets = "".join(entry.format(name, float(truth[name]), unit) for name, unit in units.items())
+    targets = "".join(TARGET.format(name, float(truth[name]), unit) for name, unit in units.items())
     (folder / "targets.toml").write_text(TARGETS.format(targets=targets))
     arguments = ["calibrate", str(folder / "disc.toml"), "--targets", str(folder / "targets.toml"), *RUN]
     assert main([*arguments, "--out", str(folder / "out")]) == 0
@@ -130,10 +147,40 @@ def test_resumed_run_solves_no_full_model_again(made, capsys):
     assert json.loads((folder / "out" / "calibration.json").read_text())["ratios"] == record["ratios"]
 
 
+def test_stiffness_of_an_interface_is_found_again(tmp_path):
+    """0.2 MPa/mm, of the order of the rubber's own G / wall, where E and the deflection see it; the file says the interface."""
+    (tmp_path / "disc.toml").write_text(CABLE)
+    mesh = specimen_mesh(read_cable(tmp_path / "disc.toml"), 14e-3)
+    held = Specimen(0.1, interface=Interfaces({"conductor-sheath": Elastic(2e8)}))
+    truth = unit_response(solve_specimen(held, mesh, UNIT_LOADS, tolerance=1e-3)).outputs(2000.0, 500.0)
+    targets = "".join(TARGET.format(n, float(truth[n]), u) for n, u in (("E", "Pa"), ("u_x", "m")))
+    (tmp_path / "targets.toml").write_text(INTERFACE.format(targets=targets))
+    words = [
+        "calibrate",
+        str(tmp_path / "disc.toml"),
+        "--targets",
+        str(tmp_path / "targets.toml"),
+        "--size",
+        "14 mm",
+        "--coarse",
+        "14 mm",
+    ]
+    assert main([*words, "--snapshots", "1", "--starts", "1", "--runs", "4", "--out", str(tmp_path / "out")]) == 0
+    record = json.loads((tmp_path / "out" / "calibration.json").read_text())
+    grip = next(p for p in record["inputs"] if p["name"] == "grip")
+    assert record["agreed"] and grip["unit"] == "Pa/m"
+    assert grip["value"] == pytest.approx(2e8, rel=0.05)  # one sigma of targets known to 1 %
+    cable = read_cable(tmp_path / "out" / "disc-calibrated.toml")
+    assert cable.specimen is not None and cable.specimen.interface.startswith("conductor-sheath=elastic:")
+
+
 def test_bad_requests_are_sentences(made, tmp_path, capsys):
     folder = made[0]
     targets = (folder / "targets.toml").read_text()
-    wall, no_length = tmp_path / "wall.toml", tmp_path / "no_length.toml"
+    wall, no_length, apart = (tmp_path / f"{name}.toml" for name in ("wall", "no_length", "apart"))
+    apart.write_text(
+        INTERFACE.format(targets=TARGET.format("E", 1.0, "Pa")).replace("conductor-sheath", "conductor-conductor")
+    )
     wall.write_text(
         targets.replace('"materials.rubber.E"', '"materials.rubber.E", "sheath.wall"').replace(
             '["4 MPa", "12 MPa"]', '["9 mm", "11 mm"]'
@@ -148,6 +195,7 @@ def test_bad_requests_are_sentences(made, tmp_path, capsys):
         ([disc, "--targets", "published"], "no entry"),
         ([disc, "--targets", str(wall)], "cannot be read in"),
         ([disc, "--targets", str(no_length)], "length"),
+        ([disc, "--targets", str(apart)], "do not touch"),
         ([disc, "--resume"], "--out"),
         ([disc, "--runs", "0"], "--runs"),
     ):

@@ -28,8 +28,10 @@ def test_record_of_a_rod(tmp_path):
     assert record["loads"]["shear -y"]["u_max"] > 0
     assert record["loads"]["tension"]["curve"]["R2"] == pytest.approx(1.0)
     assert all(check["holds"] for check in record["checks"])
+    assert "too far for small displacements" in " ".join(record["notes"])  # 2000 N on a rod like a spring
     assert record["lengths"]["E_infinite"] > 0
-    assert (tmp_path / "shear_lag.png").stat().st_size > 5000
+    for name in ("shear_lag", "stress_strain"):
+        assert (tmp_path / f"{name}.png").stat().st_size > 5000
     assert (tmp_path / "length_law.png").stat().st_size > 5000
 
 
@@ -43,6 +45,8 @@ def test_record_of_a_rod(tmp_path):
         (["--ends", "glue"], "is not known; choose uniform"),
         (["--held", "plate"], "choose fixed"),
         (["--ends", "traction:gold"], "which is not a part"),
+        (["--lengths", "60 mm, 60 mm"], "at least two different lengths"),
+        (["--published", "--load", "shear"], "load cases of its own"),
     ],
 )
 def test_bad_input(words, sentence, capsys):

@@ -6,7 +6,8 @@ from section_meshes import rings
 
 from geometry.errors import InputError
 from homogenize.specimen import AxialGrading, Specimen
-from homogenize.specimen.ladder import PUBLISHED, ladder, long_cable_rungs, read_ladder, write_ladder
+from homogenize.specimen.ladder import PUBLISHED, Step, ladder, ladder_steps, long_cable_rungs
+from homogenize.specimen.ladder_record import inputs_key, kept_rungs, part_of, read_ladder, write_ladder
 
 
 @pytest.fixture(scope="module")
@@ -14,7 +15,7 @@ def rungs():
     """A stiff core in rubber; no contact and no large displacements."""
     mesh = rings((0.006, 0.025), (60e9, 0.3), (4e6, 0.45), around=8, per_ring=1, twist_rate=16.0)
     specimen = Specimen(0.1, grading=AxialGrading(end_size=0.1, largest=0.5, growth=2.0, degree=3))
-    return mesh, ladder(mesh, specimen, large=False)
+    return mesh, ladder(ladder_steps(mesh, specimen, large=False))
 
 
 def test_what_is_released_gets_softer(rungs):
@@ -50,3 +51,30 @@ def test_a_record_comes_back_as_it_was(rungs, tmp_path):
     path.write_text("{}")
     with pytest.raises(InputError, match="not a record of a ladder"):
         read_ladder(path)
+
+
+def test_a_ladder_that_was_stopped_goes_on(rungs, tmp_path):
+    """Each rung is kept as it is done; only those that are missing are climbed again, and only for the same inputs."""
+    path, climbed = tmp_path / "ladder.json", []
+    key = inputs_key("cable", 1.0)
+
+    def step(rung, stops=False):
+        def climb(tell):
+            climbed.append(rung.name)
+            if stops:
+                raise KeyboardInterrupt
+            return rung
+
+        return Step(rung.name, climb)
+
+    def keep(so_far):
+        write_ladder(so_far, part_of(path), key)
+
+    with pytest.raises(KeyboardInterrupt):
+        ladder([step(rung, k == 3) for k, rung in enumerate(rungs[1])], done=keep)
+    assert kept_rungs(path, key) == rungs[1][:3]
+    assert kept_rungs(path, inputs_key("cable", 1.1)) == ()
+    climbed.clear()
+    assert ladder([step(rung) for rung in rungs[1]], kept=kept_rungs(path, key), done=keep) == rungs[1]
+    assert climbed == [rung.name for rung in rungs[1][3:]]
+    assert kept_rungs(path, key) == rungs[1]

@@ -81,7 +81,7 @@ def test_a_coarse_section_has_the_areas_of_its_parts():
     cable = read_cable("paper-specimen-3x35")
     mesh = coarse_section(cable)
     field = section_field(mesh)
-    assert len(mesh.cells) < 400
+    assert len(mesh.cells) < 500
     area = {r.name: field.weight[field.region_of == k].sum() for k, r in enumerate(mesh.regions)}
     for part in cable.parts:
         if part.kind in ("conductor", "insulation"):
@@ -89,6 +89,15 @@ def test_a_coarse_section_has_the_areas_of_its_parts():
     assert field.area == pytest.approx(np.pi * cable.outer_radius**2, rel=5e-3)
 
 
-def test_a_filler_unlike_the_sheath_has_no_coarse_section():
-    with pytest.raises(MeshError, match="one material"):
+def test_a_filler_unlike_the_sheath_is_a_region_of_its_own():
+    """The cores bite into the sheath by 0.3 mm; it keeps its area within 5 %. A layer between the two has no coarse section."""
+    cable = read_cable("mcpt-1.9-3.3-3x35-specimen")
+    mesh = coarse_section(cable)
+    field = section_field(mesh)
+    area = {r.name: field.weight[field.region_of == k].sum() for k, r in enumerate(mesh.regions)}
+    assert set(area) == {part.name for part in cable.parts}
+    for part in cable.parts:
+        assert area[part.name] == pytest.approx(part.area, rel=0.08 if part.name == "interstices" else 0.05)
+    assert len(mesh.cells) < 500
+    with pytest.raises(MeshError, match="wrap lies between"):
         coarse_section(read_cable("mcpt-1.9-3.3-3x35"))

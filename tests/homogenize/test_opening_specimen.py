@@ -4,13 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import nnls
 from section_meshes import rings
 
-from geometry.errors import SpecError
+from geometry.errors import ConvergenceError, SpecError
 from homogenize.interface_choice import Interfaces
 from homogenize.sliding_interface import Frictionless
-from homogenize.specimen import AxialGrading, LoadCase, Specimen, solve_specimen
-from homogenize.specimen.contact_condensation import contact_specimen
+from homogenize.specimen import AxialGrading, Held, LoadCase, Plate, Specimen, solve_specimen
+from homogenize.specimen.axial_basis import AxialBasis
+from homogenize.specimen.contact_condensation import contact_specimen, imbalance
 from homogenize.specimen.frictional_contact import ContactConstants, FrictionalContact, at_rest, contact_law
 from homogenize.specimen.opening_specimen import contact_path, even_and_odd, initial_state
 
@@ -25,7 +27,7 @@ def specimen(interface):
     return Specimen(LENGTH, interface=interface, grading=GRADING)
 
 
-def section(inner=(60e6, 0.3), outer=(4e6, 0.45), lay=0.2):
+def section(inner=(60e6, 0.3), outer=(4e6, 0.45), lay: float | None = 0.2):
     return rings(RADII, inner, outer, around=8, per_ring=1, twist_rate=2 * np.pi / lay if lay else 0.0)
 
 
@@ -33,7 +35,7 @@ def contact(mesh, **law):
     return contact_specimen(specimen(Interfaces({NAME: FrictionalContact(**law)})), mesh, LOADS)
 
 
-def with_law(condensed, friction, grip=0.0, gap=0.0):
+def with_law(condensed, friction, grip=0.0, gap: float | np.ndarray = 0.0):
     """The same condensed specimen with other constants."""
     one = np.ones(len(condensed.area))
     c = condensed.constants
@@ -165,3 +167,100 @@ def test_what_is_not_a_contact_is_refused():
         FrictionalContact(0.3, grip=1e5, gap=1e-5)
     with pytest.raises(SpecError, match="positive"):
         FrictionalContact(-0.1)
+    with pytest.raises(SpecError, match="at least one load"):
+        contact_specimen(specimen(Interfaces({NAME: FrictionalContact(0.3)})), section(), [])
+
+
+def test_forces_balance_whatever_opens(condensed):
+    """Reactions against the load, open or not; the imbalance is that of the layers, below the limit of the linear specimen."""
+    for k in (0, 1):
+        step = contact_path(condensed, k, [1.0])[-1]
+        assert step.open_share(condensed.area) > 0.05
+        assert imbalance(step.resultants, LENGTH) < 1e-2
+        np.testing.assert_allclose(step.resultants[6:9], LOADS[k].size * LOADS[k].direction, atol=1e-9 * LOADS[k].size)
+
+
+class ThickLayers:
+    """One quadratic layer as long as the specimen: a grading of its own, which the lay does not thin."""
+
+    def basis(self, length, diameter):
+        return AxialBasis(np.array([0.0, length]), 2)
+
+
+def test_layers_too_thick_for_the_lay_are_refused():
+    """How much is missing, why, and what to try."""
+    thick = replace(specimen(Interfaces({NAME: FrictionalContact(0.3)})), grading=ThickLayers())
+    with pytest.raises(ConvergenceError, match=r"out of balance by .* turns by 1.6 rad.*take layers of .* or degree 3"):
+        contact_specimen(thick, section(), LOADS)
+
+
+@pytest.mark.parametrize(
+    "ends", [{"loaded": Plate(twist=False)}, {"held": Held(("part 0", "part 1"))}], ids=["plate", "held parts"]
+)
+def test_pressed_and_rough_is_bonded_at_other_ends(ends):
+    """A plate that meets reactions; an end held by the names of its parts. rtol 2e-3: the interface yields by 1e-12 m/Pa."""
+    law = FrictionalContact(10.0, grip=1e9, normal=1e12, tangential=1e12)
+    held = contact_specimen(replace(specimen(Interfaces({NAME: law})), **ends), section(), LOADS)
+    bonded = solve_specimen(replace(specimen("bonded"), **ends), section(), LOADS, tolerance=1e-7)
+    for k, axis in ((0, 2), (1, 0)):
+        weight = bonded.F[:, -1, k] / abs(LOADS[k].size)
+        found = mean_end(held, contact_path(held, k, [1.0])[-1])[axis]
+        assert found == pytest.approx(weight @ bonded.U[:, -1, k], rel=2e-3)
+
+
+def test_a_body_that_nothing_holds_is_refused():
+    """Only the core is held, and it may leave its hole."""
+    loose = replace(specimen(Interfaces({NAME: FrictionalContact(0.3)})), held=Held(("part 0",)))
+    with pytest.raises(SpecError, match="part 1 is held by nothing"):
+        contact_specimen(loose, section(), LOADS)
+
+
+def test_smooth_contact_that_opens_has_the_forces_of_least_energy(condensed):
+    """No grip, no friction: pressures p a >= 0 that minimise p.G p / 2 + p.g_f, G = F + 1 / k a, g_f the opening of bodies without contact.
+
+    Found apart by non-negative least squares on the Cholesky factor of G. rtol 1e-5 of the largest: 1e-7 of a jump, hard springs.
+    """
+    springs = condensed.springs()
+    give = condensed.flexibility[::3, ::3] + np.diag(1 / springs[::3])
+    held = condensed.jump[:, 1]
+    apart = (held + condensed.flexibility @ (springs * held))[::3]
+    factor = np.linalg.cholesky(give)
+    forces, _ = nnls(factor.T, -np.linalg.solve(factor, apart), maxiter=10000)
+    step = contact_path(with_law(condensed, 0.0), 1, [1.0])[-1]
+    found = step.state.pressure * condensed.area
+    assert 0.3 < (forces == 0).mean() < 0.7
+    np.testing.assert_allclose(found, forces, atol=1e-5 * forces.max())
+
+
+@pytest.fixture(scope="module")
+def rough(condensed):
+    """No grip, friction 1, across: half the points open and most others slip."""
+    law = with_law(condensed, 1.0)
+    return law, contact_path(law, 1, [1.0])[-1]
+
+
+def test_rough_contact_that_opens_settles(rough):
+    """Jumps are those of the bodies apart under the forces; shear within the cone, and against the slip where it is at its edge.
+
+    atol 1e-6 of the largest jump: 1e-7 of a holding one, which are a hundred times smaller, by forces on far softer bodies.
+    """
+    law, step = rough
+    state, springs, held = step.state, law.springs(), law.jump[:, 1]
+    forces = law.area[:, None] * np.column_stack([-state.pressure, state.shear])
+    jump = held + law.flexibility @ (springs * held - forces.ravel())
+    np.testing.assert_allclose(state.jump.ravel(), jump, atol=1e-6 * np.abs(jump).max())
+    assert 0.3 < step.open_share(law.area) < 0.7
+    size = np.linalg.norm(state.shear, axis=1)
+    slips = ~state.open() & (size > (1 - 1e-9) * state.pressure)
+    assert (size <= state.pressure * (1 + 1e-9)).all() and not size[state.open()].any()
+    assert slips.sum() > 0.5 * (~state.open()).sum()
+    along = (state.shear * state.jump[:, 1:]).sum(axis=1)[slips]
+    np.testing.assert_allclose(along, size[slips] * np.linalg.norm(state.jump[slips, 1:], axis=1), rtol=1e-9)
+
+
+def test_without_grip_or_gap_displacements_are_proportional_to_the_load(rough):
+    """Contact and Coulomb's law know no length and no stress: thirty times the load opens the same points. rtol 1e-5: 1e-7 of a jump."""
+    law, step = rough
+    larger = contact_path(law, 1, [30.0])[-1]
+    np.testing.assert_allclose(larger.face, 30 * step.face, atol=1e-5 * np.abs(larger.face).max())
+    assert (larger.state.open() == step.state.open()).all()
