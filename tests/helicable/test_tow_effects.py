@@ -53,7 +53,7 @@ def test_section_effects_reach_the_rod_and_the_change_is_shown(file, monkeypatch
         def record(self):
             return {"peak_tension": 2 * self.pull, "pull_force_plateau": self.pull}
 
-    def run(scenario, section, progress=None, law=None, file=None, resume=False):
+    def run(scenario, section, progress=None, law=None, file=None, resume=False, settings=None):
         laws.append((law, section))
         return Made(1000.0 if law is None else 1100.0)
 
