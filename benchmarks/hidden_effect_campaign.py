@@ -5,7 +5,7 @@ grip that rises with a power of the axial tension and a part that the sheath mak
 has; law and noise are those of :mod:`benchmarks.blind`, which never imports `effects`. What is true stands in
 data/campaigns/truth.md, beside the folder, not in it.
 
-Run: python -m benchmarks.hidden_effect_campaign
+Run: python -m benchmarks.shipped_campaigns example-hidden-effect
 """
 
 from __future__ import annotations
@@ -22,7 +22,6 @@ from benchmarks.blind.truth import respond
 from benchmarks.blind.truths_hysteresis import InterlayerFriction
 
 FOLDER = Path(__file__).resolve().parents[1] / "data" / "campaigns" / "example-hidden-effect"
-TRUTH = FOLDER.parent / "truth.md"
 SEED = 20230218
 SAMPLES = 141
 TENSION = 3000.0
@@ -85,7 +84,7 @@ Nominal stiffness: the cell of `mcpt-1.9-3.3-3x35` with everything bonded.
 The law behind the moments is richer than the forms in the library of effects. It stands in [../truth.md](../truth.md), outside this folder:
 `helicable explain` reads this folder only, and of the sealed tables it takes the SHA-256 until it is told to open them.
 
-Made by `python -m benchmarks.hidden_effect_campaign`.
+Made by `python -m benchmarks.shipped_campaigns`.
 """
 
 
@@ -96,7 +95,8 @@ def truth_text() -> str:
     )
     return f"""# Truth of the synthetic campaigns
 
-Nothing in helicable reads this page.
+Nothing in helicable reads this page, nor [truth.json](truth.json), from which only the score
+is taken. Made by `python -m benchmarks.shipped_campaigns`.
 
 ## example-hidden-effect
 
@@ -157,7 +157,7 @@ def hidden_truth() -> InterlayerFriction:
 
 
 def main() -> None:
-    """Write the campaign and the truth beside it."""
+    """Write the campaign; the truth beside it is written by :mod:`benchmarks.shipped_campaigns`."""
     rng, bench = np.random.default_rng(SEED), make_bench()
     moment = respond(bench, [hidden_truth()])["main"]
     rms = channel_rms(bench, base_signal(bench))
@@ -175,7 +175,6 @@ def main() -> None:
     (FOLDER / "experiments.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
     (FOLDER / "campaign.toml").write_text(CAMPAIGN, encoding="utf-8")
     (FOLDER / "README.md").write_text(README, encoding="utf-8")
-    TRUTH.write_text(truth_text(), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from compare.bench_model import BenchModel
 from compare.bench_path import LedPath, bench_paths, load_per_strain, path_length
 from compare.experiment import Experiment
+from compare.fit_store import FitStore
 from compare.innovations import innovations
 from compare.kinds import KINDS
 from compare.noise_covariance import NoiseCovariance
@@ -170,12 +171,15 @@ class Block:
         Stiffnesses that the first columns belong to.
     groups : tuple of tuple of int
         Records that repeat each other; a group is the unit that is left out.
+    fits : FitStore or None
+        Where finished searches are kept (:mod:`compare.fit_store`).
     """
 
     kind: str
     base: tuple[str, ...]
     records: tuple[BenchRecord, ...] = field(repr=False)
     groups: tuple[tuple[int, ...], ...]
+    fits: FitStore | None = field(default=None, repr=False, compare=False)
 
     def pairs(self, members: Sequence[int]) -> list[tuple[int, int]]:
         """Pairs of records of a group that repeat each other sample by sample, and do not merely go on from each other."""
@@ -215,6 +219,11 @@ def make_blocks(experiments: Sequence[Experiment], model: BenchModel, noise: Noi
     blocks = []
     for kind in dict.fromkeys(e.kind for e in experiments):
         members = [e for e in experiments if e.kind == kind]
+        if kind == "towing":
+            from compare.towing_design import towing_block
+
+            blocks.append(towing_block(members, model, noise))
+            continue
         base = tuple(p.name for p in model.free_parameters(members))
         records = tuple(BenchRecord(e, paths[e.id], _readings(e, base, model, noise, paths[e.id])) for e in members)
         blocks.append(Block(kind, base, records, repeat_groups(members)))

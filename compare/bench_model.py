@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,9 +29,12 @@ from effects.effect import ActiveEffect
 from effects.library import find
 from geometry.errors import InputError
 
+if TYPE_CHECKING:
+    from compare.towing_setup import TowingSetup
+
 Array = NDArray[np.float64]
 BENCH_KINDS = ("tension", "torsion", "bending", "shear")
-UNITS = {"EA": "N", "coupling": "N m", "GJ": "N m^2", "EI": "N m^2", "GA": "N"}
+UNITS = {"EA": "N", "coupling": "N m", "GJ": "N m^2", "EI": "N m^2", "GA": "N", "friction coefficient": "1"}
 _LENGTHS_DIFFER = 1.2  # ratio of specimen lengths from which a cantilever test tells bending from shear
 
 
@@ -56,6 +60,8 @@ class BenchModel:
         Effects that are switched on; their parameters are found by the next calibration.
     effects : tuple of ActiveEffect
         Effects with values, kind by kind: what the calibration found.
+    towing : TowingSetup or None
+        The axial chain of towing experiments (:mod:`compare.towing_setup`); without it they are not covered.
 
     Examples
     --------
@@ -69,6 +75,7 @@ class BenchModel:
     ratios: Mapping[str, float] = field(default_factory=dict)
     added: tuple[str, ...] = ()
     effects: tuple[ActiveEffect, ...] = field(default=(), repr=False)
+    towing: TowingSetup | None = field(default=None, repr=False)
 
     def add(self, names: Sequence[str] | str) -> BenchModel:
         """The same model with effects of the library switched on, to be calibrated by :func:`compare.compare`.
@@ -103,6 +110,10 @@ class BenchModel:
 
     def _nominal(self, name: str, direction: str | None) -> float:
         section = self.section
+        if name == "friction coefficient":
+            if self.towing is None:
+                raise InputError("this model has no trough: give it the [towing] of a campaign.")
+            return self.towing.friction
         if name == "EA":
             return section.EA_blocked_twist
         if name == "coupling":
@@ -115,10 +126,9 @@ class BenchModel:
         x, y = (float(getattr(section, axis)) for axis in along)
         return x if x == y else 2 / (1 / x + 1 / y)
 
-    @staticmethod
-    def covers(experiment: Experiment) -> bool:
-        """Whether this model can run the experiment; towing needs a rod."""
-        return experiment.kind in BENCH_KINDS
+    def covers(self, experiment: Experiment) -> bool:
+        """Whether this model can run the experiment; towing needs a :attr:`towing`."""
+        return experiment.kind in BENCH_KINDS or (experiment.kind == "towing" and self.towing is not None)
 
     def predict(self, experiment: Experiment, before: Sequence[Experiment] = ()) -> dict[str, Array]:
         """What the measured channels of an experiment would read without noise, each of shape (n,), SI.
@@ -140,6 +150,8 @@ class BenchModel:
                 f"experiment {experiment.id}: a bench model has no {experiment.kind} experiment; "
                 f"it has {', '.join(BENCH_KINDS)}."
             )
+        if experiment.kind == "towing" and self.towing is not None:
+            return self.towing.predict(experiment, self.stiffness("friction coefficient"), self.effects)
         if self.effects:
             return respond(self, experiment, before)
         kind, record = KINDS[experiment.kind], experiment.record
@@ -179,6 +191,11 @@ class BenchModel:
         A coupling that the section does not have is not calibrated: that one is there at all would be an effect. A
         cantilever of a single length shows one number, so that EI and GA then move together, unless bending gives EI.
         """
+        seen = {e.kind for e in experiments}
+        trough = (StiffnessParameter("friction coefficient", ("friction coefficient",)),) if "towing" in seen else ()
+        return (*self._bench_parameters([e for e in experiments if e.kind != "towing"]), *trough)
+
+    def _bench_parameters(self, experiments: Sequence[Experiment]) -> tuple[StiffnessParameter, ...]:
         seen = {e.kind for e in experiments}
         names = [name for kind, name in (("tension", "EA"), ("torsion", "GJ"), ("bending", "EI")) if kind in seen]
         beside = {("tension", "torque"), ("torsion", "force")}

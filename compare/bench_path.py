@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from compare.experiment import Experiment
 from compare.kinds import KINDS
+from compare.towing_setup import towing_path
 from effects.effect import BenchPath
 
 if TYPE_CHECKING:
@@ -68,6 +69,8 @@ def bench_paths(experiments: Sequence[Experiment], model: BenchModel) -> dict[st
 
 
 def _own_path(experiment: Experiment, model: BenchModel) -> BenchPath:
+    if experiment.kind == "towing" and model.towing is not None:
+        return towing_path(experiment, model.towing)
     record = experiment.record
     stiffness = load_per_strain(model, experiment)
     given = record[record.prescribed]

@@ -21,6 +21,7 @@ from compare.experiment import Experiment
 from compare.lack_of_fit import LackOfFit, lack_of_fit
 from compare.misfit import Misfit, bias_uncertainty, misfit
 from compare.noise_floor import NoiseModel, measure_noise
+from compare.towing_setup import modelled
 
 Array = NDArray[np.float64]
 Progress = Callable[[float, str], None]
@@ -170,6 +171,7 @@ def compare(model: BenchModel, campaign: Campaign, progress: Progress | None = N
         If the calibration does not come to rest.
     """
     report = progress or (lambda _fraction, _sentence: None)
+    campaign, aside = modelled(campaign) if model.towing else (campaign, ())
     report(0.0, "learning the noise from repeats")
     noise = measure_noise(campaign)
     bench = [e for e in campaign.readable if model.covers(e)]
@@ -186,7 +188,13 @@ def compare(model: BenchModel, campaign: Campaign, progress: Progress | None = N
         for channel in e.record.measured
     ]
     tests = _lack_of_fit(fits, noise, calibration)
-    notes = (*noise.notes, *calibration.notes, *_notes(campaign, bench, gaps))
+    notes = (
+        *noise.notes,
+        *calibration.notes,
+        *aside,
+        *(model.towing.notes if model.towing else ()),
+        *_notes(campaign, bench, gaps),
+    )
     report(1.0, "compared")
     return Comparison(campaign, model, calibration, noise, tuple(fits), tuple(gaps), tests, notes)
 

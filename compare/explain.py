@@ -10,6 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from compare.campaign import Campaign
 from compare.comparison import Comparison, compare, compare_calibrated
 from compare.effect_calibration import calibration_of, parameters_of
 from compare.findings import Candidate, Findings, NextExperiment, Place, SetError, Step, Verdict
+from compare.fit_store import FitStore
 from compare.gaussian_process_patch import patch_error, refit_error
 from compare.localisation import marks
 from compare.next_experiment import separating_experiment
@@ -27,6 +29,7 @@ from compare.search import Attempt, Progress, Stage
 from compare.section_finding import section_findings, with_expectations
 from compare.testability import testability, worth_trying
 from compare.thinning import thinned
+from compare.towing_setup import modelled
 from compare.validation import set_error
 from compare.verdict import Outcome, decide
 from effects.effect import Effect
@@ -42,6 +45,7 @@ def explain(
     campaign: Campaign,
     progress: Progress | None = None,
     library: Sequence[Effect] | None = None,
+    store: str | Path | None = None,
 ) -> Findings:
     """Find the physics that the linear model misses, and prove it on data that it did not fit.
 
@@ -55,6 +59,8 @@ def explain(
         Called with a fraction 0..1 and a sentence.
     library : sequence of Effect, optional
         What may be missing; by default everything that is installed or registered.
+    store : path, optional
+        File in which finished fits are kept; an explanation that was killed goes on from there.
 
     Raises
     ------
@@ -72,15 +78,16 @@ def explain(
     begin = time.perf_counter()
     tell = progress or (lambda _fraction, _sentence: None)
     effects = tuple(library) if library is not None else whole_library()
-    closed, notes = thinned(_closed(campaign))
+    closed, notes = thinned(_closed(modelled(campaign)[0]) if model.towing else _closed(campaign))
     tell(0.0, "learning the noise, calibrating the linear stiffness")
     before = compare(model.linear, closed)
     bench = [e for e in closed.of_set("calibrate") if model.covers(e)]
     if not bench:
-        raise InputError(
-            "no open bench experiment (tension, torsion, bending, shear) is in the set calibrate: nothing can be learnt."
-        )
+        raise InputError("no open experiment that the model covers is in the set calibrate: nothing can be learnt.")
     blocks = make_blocks(bench, before.model, before.noise)
+    if store is not None:
+        fits = FitStore.of(closed, effects, before.model, store)
+        blocks = tuple(replace(block, fits=fits) for block in blocks)
     tell(0.1, "asking what these experiments can tell apart")
     separation, untestable, smallest, D = testability(blocks, effects)
     outcome = decide(blocks, worth_trying(effects, blocks, D), lambda f, s: tell(0.15 + 0.65 * f, s))
@@ -121,7 +128,7 @@ def open_and_validate(findings: Findings, campaign: Campaign) -> Findings:
     campaign : Campaign
         As it was read.
     """
-    opened, _ = thinned(campaign.open_sealed())
+    opened, _ = thinned(modelled(campaign.open_sealed())[0])
     before = compare_calibrated(findings.comparison, opened)
     after = before if findings.after is findings.comparison else compare_calibrated(findings.after, opened)
     error = set_error(before, after, "sealed", _baselines(before, "sealed") if after is not before else None)

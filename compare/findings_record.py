@@ -20,6 +20,7 @@ from compare.comparison_record import comparison_record, finite_content, noise_r
 from compare.findings import Candidate, Check, Findings, NextExperiment, ParameterValue, Separation, SetError, Step
 from compare.findings_sentences import missing_effect, named, parameters_of, with_units
 from compare.kinds import SETS
+from effects.effect_record import effect_record
 
 UNIT = "relative to the noise floor"
 
@@ -66,6 +67,7 @@ def findings_record(findings: Findings) -> dict[str, Any]:
         "parameters": {
             name: {key: parameter_record(p) for key, p in parameters_of(f, name).items()} for name in named(f)
         },
+        "found": [effect_record(active) for active in f.model.effects],
         "path": [_step_row(step) for step in f.path],
         "smallest_seen": dict(f.smallest_seen),
         "separation": _separation(f.separation),

@@ -101,7 +101,14 @@ def refine(scan: Scan, term: ActiveEffect, grid: Grams, shapes: Sequence[tuple[f
     if not term.form.shape:
         return fitted(scan.candidate(here), here)
     limits = _limits(term.form, shapes)
-    here = _search(scan, here, costs[best], _neighbours(shapes, best, limits), limits)
+    return searched(scan, _search(scan, here, costs[best], _neighbours(shapes, best, limits), limits), shapes)
+
+
+def searched(scan: Scan, here: ActiveEffect, shapes: Sequence[tuple[float, ...]]) -> FormFit:
+    """The fit at the best shape, which a search over the grid `shapes` has found, with the shapes around it."""
+    if not here.form.shape:
+        return fitted(scan.candidate(here), here)
+    limits = _limits(here.form, shapes)
     fit = fitted(scan.candidate(here), here)
     return replace(fit, near=_near(scan, fit, limits), at_edge=_at_edge(scan, here, limits))
 

@@ -255,7 +255,7 @@ class Scan:
     def _columns(self, term: ActiveEffect) -> list[list[Array]]:
         """Sample-white columns of all terms, per record and reading."""
         terms = (*self.accepted, term)
-        if term.form.stage in ("fixture", "filter"):
+        if term.form.stage in ("fixture", "filter", "drive"):
             return [_sample_white(record, terms) for record in self.block.records]
         if term.form.stage != "section" or not self._plain:
             own = [_sample_white(record, terms, only=len(self.accepted)) for record in self.block.records]

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +29,7 @@ from effects.effect import STRAIN_UNITS, ActiveEffect, BenchPath
 
 Array = NDArray[np.float64]
 _ZERO_CELSIUS = 273.15
-_SHAPES = 40
+_SHAPES, _SHAPES_OF_RUNS = 40, 5
 _REPEATS = 2
 _NO_BETTER = 0.5
 _CLEAR = 10.0  # a distance that is enough: beyond it the cheaper condition wins
@@ -40,17 +41,24 @@ _PATH_WORDS = {"tension": "strain", "torsion": "twist", "bending": "curvature", 
 class Proposal:
     """A condition to be tested: its path and the words for it; `conditions` as in experiments.csv.
 
-    `cost` counts what differs from conditions that the rig has shown that it can reach, larger paths twice.
+    `cost` counts what differs from conditions that the rig has shown that it can reach, larger paths twice. `record` is
+    that of the new experiment where it is no path alone (towing).
     """
 
     path: BenchPath = field(repr=False)
     conditions: Mapping[str, float]
     words: str
     cost: float = 0.0
+    record: Any = field(default=None, repr=False)
 
 
 def proposals(block: Block) -> Iterator[Proposal]:
     """Conditions within reach: one or two of the existing ones changed, amplitude, rate, tension, temperature, length."""
+    if block.kind == "towing":
+        from compare.next_towing import towing_proposals
+
+        yield from towing_proposals(block)
+        return
     record = max(block.records, key=lambda r: float(np.abs(r.led.path.strain).max()))
     path = replace(record.led.path, strain=record.led.path.strain[record.led.lead :])
     lead = record.led.lead
@@ -186,7 +194,8 @@ class _Contest:
         self.truth, self.x = (*self.accepted, truth), x
         term = rival.trials[0].fit.term
         grid = shape_grid(term.form, self.block)
-        grid = [grid[i] for i in np.unique(np.linspace(0, len(grid) - 1, _SHAPES).round().astype(int))]
+        most = _SHAPES_OF_RUNS if self.block.kind == "towing" else _SHAPES
+        grid = [grid[i] for i in np.unique(np.linspace(0, len(grid) - 1, most).round().astype(int))]
         self.terms = [(*self.accepted, replace(term, shape=s)) for s in (term.shape, *grid)]
         self.scan = Scan(self.block, self.accepted)
         self.positive = positive_flags(self.block, self.terms[0])
@@ -195,7 +204,11 @@ class _Contest:
 
     def distance(self, proposal: Proposal | None) -> float:
         """D with the new condition done twice, or with everything repeated."""
-        new = self.existing if proposal is None else _REPEATS * self._products(_new_record(self.block, proposal.path))
+        new = (
+            self.existing
+            if proposal is None
+            else _REPEATS * self._products(proposal.record or _new_record(self.block, proposal.path))
+        )
         S = self.existing + new
         base = self.scan.base()
         model = replace(base, S=S[:, None], positive=self.positive)

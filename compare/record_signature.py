@@ -62,7 +62,11 @@ class RecordSignature:
 
 def record_signatures(comparison: Comparison, set_name: str = "calibrate") -> list[RecordSignature]:
     """Of every compared channel of a set; channels without a signal in the model show only ``offset`` and ``cross``."""
-    fits = [f for f in comparison.fits if f.experiment.set == set_name and len(f.measured) >= _FEWEST]
+    fits = [
+        f
+        for f in comparison.fits
+        if f.experiment.set == set_name and len(f.measured) >= _FEWEST and f.experiment.kind != "towing"
+    ]
     experiments = list({f.experiment.id: f.experiment for f in fits}.values())
     paths = bench_paths(experiments, comparison.model.linear)
     found = []

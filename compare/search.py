@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from compare.bench_design import Block
 from compare.evidence import LeftOut, Null, left_out, log_e_value, splits
-from compare.form_fit import FormFit, Site, fitted, refine, shape_grid, sites, total_cost
+from compare.form_fit import FormFit, Site, fitted, refine, searched, shape_grid, sites, total_cost
 from compare.gram import Grams, Scan
 from compare.shared_misfit import SharedMisfit, shared_misfit
 from effects.effect import ActiveEffect, Effect, Form
@@ -24,6 +24,7 @@ Terms = tuple[tuple[ActiveEffect, ...], ...]
 _WORTH_A_SEARCH = 8.0  # fall of the square residual on the grid below which a shape is not searched further
 _FAR_BEHIND = 0.1  # or below that part of the largest fall
 _EDGE = 5.0  # nats that a shape at the end of its range costs in the ranking
+_NO_EVIDENCE = -1e299
 _WORTH_FORM = 5.0  # nats by which a richer form has to predict better
 Progress = Callable[[float, str], None]
 
@@ -101,7 +102,8 @@ class Stage:
         self.needed = float(np.log(max(len(self.sites), 1) / alpha))
         self._null: dict[int, Null] = {}
         self._trials: dict[tuple[int, str, str | None, str], Trial] = {}
-        self._grids: dict[tuple[int, str, str | None, str], tuple[Grams, list[tuple[float, ...]], float]] = {}
+        self._grids: dict[tuple[int, str, str | None, str], tuple[Grams, list[tuple[float, ...]]]] = {}
+        self._falls: dict[tuple[int, str, str | None, str], float] = {}
         self._largest_fall: dict[int, float] = {}
 
     def misfit(self) -> SharedMisfit:
@@ -123,29 +125,66 @@ class Stage:
 
     def _try(self, site: Site, form: Form) -> Trial:
         block, scan = self.blocks[site.block], self.scans[site.block]
-        grid, shapes, fall = self._grid(site, form)
+        shapes, fall = shape_grid(form, block), self._fall(site, form)
         promising = fall > max(_WORTH_A_SEARCH, _FAR_BEHIND * self._largest_fall[site.block])
-        if promising:
-            fit = refine(scan, site.term(form, shapes[0]), grid, shapes)
+        beside, tried = self.accepted[site.block], (site.effect.name, form.name, site.kind, site.channel or "")
+        known = block.fits.get(beside, tried, promising) if block.fits is not None else None
+        if known is not None:
+            fit = (
+                searched(scan, site.term(form, known[0]), shapes)
+                if promising
+                else self._plain_fit(site, form, known[0])
+            )
+            log_e = known[1] if known[1] > _NO_EVIDENCE else -np.inf
         else:
-            term = site.term(form, shapes[int(np.argmin(np.atleast_1d(total_cost(grid))))])
-            fit = fitted(scan.candidate(term), term)
-        log_e = -np.inf
-        if promising or not any(self.accepted):
-            log_e = log_e_value(grid, self.null(site.block), splits(len(block.groups)))
+            fit, log_e = self._searched(site, form, promising)
+            if block.fits is not None:
+                block.fits.put(beside, tried, promising, fit.term.shape, log_e)
         near = left_out(fit.near or fit.grams)
         gain = 0.5 * (self.left[site.block].square - near.square)
         return Trial(site, fit, log_e, gain, near.shared)
 
-    def _grid(self, site: Site, form: Form) -> tuple[Grams, list[tuple[float, ...]], float]:
-        """Gram matrices over the starts of the shapes, and how far the square residual falls there."""
+    def _plain_fit(self, site: Site, form: Form, shape: tuple[float, ...]) -> FormFit:
+        term = site.term(form, shape)
+        return fitted(self.scans[site.block].candidate(term), term)
+
+    def _searched(self, site: Site, form: Form, promising: bool) -> tuple[FormFit, float]:
+        """The best shape and its evidence; from the grid alone where that promises nothing."""
+        block, scan = self.blocks[site.block], self.scans[site.block]
+        grid, shapes = self._grid(site, form)
+        if promising:
+            fit = refine(scan, site.term(form, shapes[0]), grid, shapes)
+        else:
+            fit = self._plain_fit(site, form, shapes[int(np.argmin(np.atleast_1d(total_cost(grid))))])
+        log_e = -np.inf
+        if promising or not any(self.accepted):
+            log_e = log_e_value(grid, self.null(site.block), splits(len(block.groups)))
+        return fit, log_e
+
+    def _fall(self, site: Site, form: Form) -> float:
+        """How far the square residual falls over the starts of the shapes."""
+        key = (site.block, site.effect.name, site.channel, form.name)
+        if key not in self._falls:
+            block, beside = self.blocks[site.block], self.accepted[site.block]
+            tried = ("grid", site.effect.name, form.name, site.kind, site.channel or "")
+            known = block.fits.get(beside, tried, False) if block.fits is not None else None
+            if known is None:
+                grid, _ = self._grid(site, form)
+                fall = float(total_cost(self.base[site.block]) - np.min(total_cost(grid)))
+                if block.fits is not None:
+                    block.fits.put(beside, tried, False, (fall,), 0.0)
+            else:
+                fall = known[0][0]
+            self._falls[key] = fall
+            self._largest_fall[site.block] = max(self._largest_fall.get(site.block, 0.0), fall)
+        return self._falls[key]
+
+    def _grid(self, site: Site, form: Form) -> tuple[Grams, list[tuple[float, ...]]]:
+        """Gram matrices over the starts of the shapes."""
         key = (site.block, site.effect.name, site.channel, form.name)
         if key not in self._grids:
             shapes = shape_grid(form, self.blocks[site.block])
-            grid = self.scans[site.block].grid(site.term(form, shapes[0]), shapes)
-            fall = float(total_cost(self.base[site.block]) - np.min(total_cost(grid)))
-            self._grids[key] = grid, shapes, fall
-            self._largest_fall[site.block] = max(self._largest_fall.get(site.block, 0.0), fall)
+            self._grids[key] = self.scans[site.block].grid(site.term(form, shapes[0]), shapes), shapes
         return self._grids[key]
 
     def plain(self) -> list[Attempt]:
@@ -160,7 +199,7 @@ class Stage:
         by_effect: dict[str, list[Trial]] = {}
         for site, choices in forms.items():
             for form in choices:
-                self._grid(site, form)  # so that what is far behind need not be searched
+                self._fall(site, form)  # so that what is far behind need not be searched
         for site, choices in forms.items():
             best = max((self.trial(site, form) for form in choices), key=_worth_its_form)
             by_effect.setdefault(site.effect.name, []).append(best)

@@ -10,6 +10,9 @@ effect acts in one stage. Its *shape* parameters theta enter nonlinearly; its *s
 measured in strain, so that K a c is the load that the effect adds. With strengths of zero, or, in a fixture or a
 filter, with shapes of zero, the linear model is left exactly as it was.
 
+A towing record is run, not read: an effect of towing changes the cable that is run (:mod:`effects.towed_cable`), by its
+strengths (stage ``chain``) or by its shapes alone (``drive``). Sensors read both kinds of record in the same way.
+
 An effect has one or more forms: the plain one first, richer ones after it. A richer form is the same physics with more
 freedom (more elements, more relaxation times), never another effect.
 """
@@ -18,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +30,7 @@ from geometry.errors import InputError
 
 Array = NDArray[np.float64]
 EffectKind = Literal["physics", "rig", "sensor"]
-Stage = Literal["section", "cross", "fixture", "filter", "bias"]
+Stage = Literal["section", "cross", "fixture", "filter", "bias", "chain", "drive"]
 STRAIN_UNITS = {"tension": "1", "torsion": "rad/m", "bending": "1/m", "shear": "1"}
 PLAY_UNITS = {"tension": "m", "torsion": "rad", "bending": "rad", "shear": "m"}
 ARM_UNITS = {"tension": "m", "torsion": "1/m"}
@@ -40,13 +43,14 @@ class BenchPath:
     Attributes
     ----------
     kind : str
-        ``tension``, ``torsion``, ``bending`` or ``shear``.
+        ``tension``, ``torsion``, ``bending``, ``shear`` or ``towing``.
     strain : (n,) array
-        Path per length: strain, twist [rad/m], curvature [1/m], deflection over length of a cantilever.
+        Path per length: strain, twist [rad/m], curvature [1/m], deflection over length of a cantilever; in towing the
+        told position [m].
     time : (n,) array or None
         Instants [s], starting at the first sample; None for a loop without a clock.
     length : float or None
-        Specimen length [m].
+        Specimen length [m]; in towing that of the cable.
     tension : (n,) array or None
         Axial tension that grips the layers [N]: of the conditions, in a tension test the calibrated linear force.
     temperature : float or None
@@ -173,7 +177,7 @@ class Derived:
     value: Callable[[Sequence[float], Array, BenchPath], float] = field(repr=False)
 
 
-Respond = Callable[..., Array]
+Respond = Callable[..., Any]
 Advance = Callable[..., tuple[Array, Array]]
 
 
@@ -191,6 +195,8 @@ class Form:
         ``fixture``: `respond(path, *shape)` gives the strain (n,) that the section sees.
         ``filter``: `respond(signal, time, *shape)` gives what the sensor reads of a signal (n, k), linear in it.
         ``bias``: `respond(path, *shape)` gives columns (n, k) that are added to a channel, of size about 1.
+        ``chain``, ``drive``: `respond(cable, strength, *shape)` gives the :class:`effects.towed_cable.TowedCable` with the
+        effect; the strengths are in their own units, and a drive has none.
     shape, strength : tuple of Parameter
         Nonlinear parameters; linear ones, one per column. Fixtures and filters have no strengths.
     advance : callable, optional

@@ -14,14 +14,19 @@ import numpy as np
 from effects.effect import Array, BenchPath, Effect, Form
 
 _NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
-KINDS = ("tension", "torsion", "bending", "shear")
+BENCH_KINDS = ("tension", "torsion", "bending", "shear")
+KINDS = (*BENCH_KINDS, "towing")
 _STEP_OFF = 0.1  # of the columns: a rate at a sample and that of the step before differ by half a sampling interval
-STAGES = ("section", "cross", "fixture", "filter", "bias")
+STAGES = ("section", "cross", "fixture", "filter", "bias", "chain", "drive")
+TOWED = ("chain", "drive")
 
 
 def probe(kind: str = "torsion") -> BenchPath:
     """A short record to try a law on: growing cycles of 1 % with a clock, a length and all conditions."""
     time = np.linspace(0.0, 60.0, 241)
+    if kind == "towing":
+        position = 0.25 * (1 - np.cos(time / 10.0)) ** 2
+        return BenchPath(kind, position, time, 30.0, largest=1.0)
     strain = 0.01 * np.sin(time / 5.0) * (0.3 + 0.7 * time / 60.0)
     return BenchPath(
         kind, strain, time, 2.0, 1000.0 + 100.0 * np.cos(time / 7.0), 300.0, None, 0.01, 1000.0, 293.15
@@ -43,6 +48,14 @@ def defect(effect: Effect) -> str | None:
         wrong = _form_defect(form, probe(effect.kinds[0]))
         if wrong:
             return f'effect {effect.name}, form "{form.name}": {wrong}.'
+        on_bench = [k for k in effect.kinds if k != "towing"]
+        if (form.stage in TOWED and on_bench) or (
+            form.stage in ("section", "cross", "fixture") and len(on_bench) < len(effect.kinds)
+        ):
+            return (
+                f'effect {effect.name}, form "{form.name}": a law of the stage {form.stage} cannot act in '
+                f"{on_bench[0] if form.stage in TOWED else 'towing'} experiments."
+            )
     return None
 
 
@@ -54,6 +67,8 @@ def _form_defect(form: Form, path: BenchPath) -> str | None:
         return f"the shape {without[0]} has no starts; say where a search begins, such as of_strain(0.1, 1.0, 6)"
     try:
         middle = [float(v[len(v) // 2]) for v in (np.atleast_1d(p.starts([path])) for p in form.shape if p.starts)]
+        if form.stage in TOWED:
+            return _towed_defect(form, path, middle)
         given = _answer(form, path, middle)
         if form.stage in ("fixture", "filter"):
             neutral = _answer(form, path, [0.0] * len(form.shape))
@@ -70,6 +85,26 @@ def _signal(path: BenchPath) -> Array:
 def _answer(form: Form, path: BenchPath, shape: list[float]) -> Array:
     arguments = (_signal(path), path.time) if form.stage == "filter" else (path,)
     return np.asarray(form.respond(*arguments, *shape), dtype=float)
+
+
+def _towed_defect(form: Form, path: BenchPath, shape: list[float]) -> str | None:
+    from beam.axial_chain import AxialChain
+    from effects.towed_cable import TowedCable
+
+    assert path.time is not None
+    chain = AxialChain(30.0, 4e5, 5.0, 0.3, 800.0, 0.1, elements=8)
+    cable = TowedCable(chain, path.time, path.strain)
+    if bool(form.strength) != (form.stage == "chain"):
+        return "a chain law has strengths, and a drive has none"
+    without = [0.0] * len(shape) if form.stage == "drive" else shape
+    neutral, some = [0.0] * len(form.strength), [0.01] * len(form.strength)
+    base = cable.tensions([10.0])
+    if not np.array_equal(form.respond(cable, neutral, *without).tensions([10.0]), base):
+        return "with nothing of the effect the cable must be left unchanged"
+    changed = form.respond(cable, some, *shape).tensions([10.0])
+    if not np.isfinite(changed).all():
+        return "its law gives values that are not finite"
+    return None
 
 
 def _passes_defect(form: Form, path: BenchPath, given: Array, neutral: Array) -> str | None:

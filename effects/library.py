@@ -1,4 +1,4 @@
-"""The library: the bench effects of the campaign contract in its order, then plug-ins, then what a script registered.
+"""The library: the effects of the campaign contract in its order, then plug-ins, then what a script registered.
 
 A plug-in is an installed package with an entry point of the group ``helicable.effects`` that loads to an
 :class:`~effects.effect.Effect`, to several, or to a function without arguments that returns one or several. A plug-in
@@ -40,6 +40,13 @@ NAMES = (
     "sensor-offset",
     "sensor-drift",
     "sensor-lag",
+    "trough-friction-stribeck",
+    "viscous-drag",
+    "added-load",
+    "roller-resistance",
+    "clamp-backlash",
+    "polygon-effect",
+    "trolley-ratio-error",
 )
 
 _registered: dict[str, Effect] = {}

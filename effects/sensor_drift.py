@@ -65,7 +65,7 @@ EFFECT = Effect(
     needs="a clock, and records of unlike duration or with the same path more than once",
     signature="the loop does not close and wanders one way in proportion to time; the first sample is right; a slower"
     " record of the same path wanders more",
-    kinds=("tension", "torsion", "bending", "shear"),
+    kinds=("tension", "torsion", "bending", "shear", "towing"),
     forms=(
         _form("proportional to time", _linear, _rate("rate", "channel/s", "growth of the bias")),
         _form("root of time", _root, _rate("rate", "channel/s^0.5", "growth of the bias with the root of time")),

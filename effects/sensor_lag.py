@@ -93,7 +93,7 @@ EFFECT = Effect(
     needs="a clock, and the same path at two rates at least: at one rate a lag and viscous damping look alike",
     signature="a loop on which the channel comes late: wide where the path is fast, gone where it rests; the channels of"
     " other sensors keep time",
-    kinds=("tension", "torsion", "bending", "shear"),
+    kinds=("tension", "torsion", "bending", "shear", "towing"),
     forms=(
         Form("first order", "filter", _first_order, shape=(_time("tau", "time constant", 14),)),
         Form(

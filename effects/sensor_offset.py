@@ -25,7 +25,7 @@ EFFECT = Effect(
     source="JCGM 200:2012 (VIM), instrumental bias",
     needs="several records, so that a common bias stands out of offsets that differ from mounting to mounting",
     signature="the whole loop is moved up or down by the same amount in every record, the first sample included",
-    kinds=("tension", "torsion", "bending", "shear"),
+    kinds=("tension", "torsion", "bending", "shear", "towing"),
     forms=(
         Form(
             "constant",

@@ -42,12 +42,14 @@ _PATHS = {
     "torsion": ("twist", 1.0, "rad/m"),
     "bending": ("curvature", 1.0, "1/m"),
     "shear": ("deflection / length", 1e2, "%"),
+    "towing": ("told position", 1.0, "m"),
 }
 _LOADS = {
     "tension": ("force", "N"),
     "torsion": ("torque", "N m"),
     "bending": ("moment", "N m"),
     "shear": ("force", "N"),
+    "towing": ("tension", "N"),
 }
 _CROSS = {"tension": ("torque", "N m"), "torsion": ("force", "N")}
 
@@ -106,7 +108,7 @@ def signature_figure(effect: Effect, scene: Scene | None = None) -> Figure:
     loops.set(xlabel=f"{name} [{path_unit}]", ylabel=f"{load} [{unit}]")
     rest.set(xlabel="time [s]" if scene.over_time else f"{name} [{path_unit}]", ylabel=f"{load} [{unit}]")
     loops.set_title("with the effect")
-    rest.set_title("less the linear model")
+    rest.set_title("less the base model" if scene.kind == "towing" else "less the linear model")
     for axes in (loops, rest):
         axes.grid(color=_GREY, alpha=0.25, lw=0.6)
         axes.set_axisbelow(True)
@@ -136,6 +138,11 @@ def _draw(axes: Axes, x: Array, y: Array, reading: Reading, line: dict[str, Any]
 
 def _draw_linear(axes: Axes, readings: Sequence[Reading], factor: float, label: str) -> None:
     largest = max(readings, key=lambda r: float(abs(r.case.path.strain).max()))
+    if largest.case.path.kind == "towing":
+        for i, reading in enumerate(readings):
+            told = "base model, its friction fitted to all" if i == 0 else None
+            axes.plot(reading.case.path.strain * factor, reading.linear, label=told, zorder=5, **_LINEAR)
+        return
     x, y = largest.case.path.strain, largest.linear
     ends = [int(x.argmin()), int(x.argmax())]
     axes.plot(x[ends] * factor, y[ends], label=label, zorder=5, **_LINEAR)

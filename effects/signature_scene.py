@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from effects.effect import Array, BenchPath, Effect, Form
+from effects.towing_scene import fitted_base, tension, towed_path
 
 STIFFNESS = {"tension": 4e5, "torsion": 60.0, "bending": 95.0, "shear": 4e4}
 """Nominal EA [N], GJ [N m2], EI [N m2]; of the cantilever force over deflection per length [N]."""
@@ -52,6 +53,11 @@ class Reading:
 
 def read_scene(effect: Effect, scene: Scene) -> list[Reading]:
     """Readings of the plain form of an effect in a scene, one per case."""
+    if scene.kind == "towing":
+        paths = [c.path for c in scene.cases]
+        loads = [tension(effect, p, scene.shape, scene.strength) for p in paths]
+        base = fitted_base(paths, loads)
+        return [Reading(c, y, x) for c, x, y in zip(scene.cases, base, loads, strict=True)]
     loads = [_load(effect.forms[0], c.path, scene) for c in scene.cases]
     base = [STIFFNESS[scene.kind] * c.path.strain for c in scene.cases]
     if effect.stage in ("cross", "bias"):  # without coupling there is no second load; a bias is none of the stiffness
@@ -80,6 +86,12 @@ def scene_of(effect: Effect) -> Scene:
     if effect.name in _SCENES:
         return _SCENES[effect.name]()
     kind = effect.kinds[0]
+    if kind == "towing":
+        form = effect.forms[0]
+        cases = _towed((0.6, 1600.0, 0.0), (0.15, 800.0, 10.0))
+        shape = [float(v[len(v) // 2]) for v in (p.starts([c.path for c in cases]) for p in form.shape if p.starts)]
+        strength = [0.3 * min(p.plausible[1], 1e3) for p in form.strength]
+        return Scene(kind, cases, tuple(shape), tuple(strength), over_time=True)
     cases = _by_amplitude(kind)
     paths = [c.path for c in cases]
     form = effect.forms[0]
@@ -149,6 +161,16 @@ def _stretch() -> tuple[Case, ...]:
     return (Case("rotation blocked", _record("tension", (0.0, 1.0, 0.0))),)
 
 
+def _towed(*conditions: tuple[float, float, float]) -> tuple[Case, ...]:
+    """Records of towing by largest speed [m/s], tail tension [N] and inclination [deg]."""
+    return tuple(Case(f"{v:g} m/s, tail {tail:g} N, {a:g}°", towed_path(v, tail, a)) for v, tail, a in conditions)
+
+
+def _towing(shape: tuple[float, ...], strength: tuple[float, ...], *conditions: tuple[float, float, float]) -> Scene:
+    return Scene("towing", _towed(*conditions), shape, strength, over_time=True)
+
+
+_SPEEDS = ((0.6, 800.0, 0.0), (0.1, 800.0, 0.0))
 _GRIPS = (0.0, 0.6, 0.0, 1.0, 0.0)
 _SCENES = {
     "interlayer-friction": lambda: Scene("bending", _by_tension(), (0.3, 0.9), (1.0,)),
@@ -169,4 +191,11 @@ _SCENES = {
     "sensor-offset": lambda: Scene("bending", _by_amplitude("bending"), (), (0.15,)),
     "sensor-drift": lambda: Scene("bending", _by_duration("bending", 20.0, 5.0), (), (0.3 / 100,), over_time=True),
     "sensor-lag": lambda: Scene("bending", _by_duration("bending", 20.0, 5.0), (0.8,)),
+    "trough-friction-stribeck": lambda: _towing((0.15,), (0.15,), *_SPEEDS),
+    "viscous-drag": lambda: _towing((), (20.0,), *_SPEEDS),
+    "added-load": lambda: _towing((), (1.5,), (0.3, 800.0, 0.0), (0.3, 800.0, 12.0)),
+    "roller-resistance": lambda: _towing((), (0.15,), (0.3, 800.0, 0.0), (0.3, 2400.0, 0.0)),
+    "clamp-backlash": lambda: _towing((0.04,), (), *_SPEEDS),
+    "polygon-effect": lambda: _towing((0.108,), (0.05, 0.0), (0.3, 800.0, 0.0), (0.12, 800.0, 0.0)),
+    "trolley-ratio-error": lambda: _towing((), (0.2,), *_SPEEDS),
 }

@@ -169,8 +169,12 @@ def label(seed: int, **changes: Any) -> dict[str, Any]:
 
 def make(seed: int, folder: str | Path, **changes: Any) -> Path:
     """Write the campaign of a seed; nothing in the folder tells the truth."""
-    made = hidden(seed, **changes)
-    rng = np.random.default_rng([4242, seed])
+    return write(hidden(seed, **changes), folder)
+
+
+def write(made: Hidden, folder: str | Path) -> Path:
+    """Write a campaign that was drawn before."""
+    rng = np.random.default_rng([4242, made.case.seed])
     order, kinds = [], []
     for k, (bench, truths) in enumerate(zip(made.benches, made.truths, strict=True)):
         kinds.append(_measure(rng, made, bench, truths, second=made.second and k == 0))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from compare import BenchModel, BenchSection, Campaign, plot_comparison
 from compare import compare as compare_with
+from compare.nominal_section import NominalSection
+from compare.towing_setup import TowingSetup
 from geometry import read_cable
 from geometry.errors import ConvergenceError, SpecError
 from helicable.options import CampaignArgument, JsonOption, OutOption
@@ -23,9 +25,9 @@ def compare(
     Example: `helicable compare my-campaign --out report`
     """
     read = Campaign.read(campaign)
-    section = campaign_section(read)
+    model = campaign_model(read)
     with progress("comparing") as tell:
-        comparison = compare_with(BenchModel(section), read, progress=tell)
+        comparison = compare_with(model, read, progress=tell)
     record = comparison.record()
     sheet(read.title, [("", comparison.headline()), ("", "")])
     rows = [
@@ -44,6 +46,31 @@ def compare(
         say("written: " + ", ".join(str(p) for p in (*pictures, out / "comparison.json")))
     if not comparison.fits:
         raise ConvergenceError("no experiment of this campaign could be compared; see the notes above.")
+
+
+def campaign_model(campaign: Campaign) -> BenchModel:
+    """The base model of every kind of experiment in the campaign: the section on the bench, the axial chain in the trough.
+
+    A campaign of towing alone needs no section beside what [towing] says.
+    """
+    towed = any(e.kind == "towing" for e in campaign.experiments)
+    on_bench = any(e.kind != "towing" for e in campaign.experiments)
+    if towed and not on_bench and (campaign.cable is None or {"EA", "mass_per_length"} <= set(campaign.towing)):
+        return BenchModel(campaign.section or NominalSection({}), towing=TowingSetup.of(campaign))
+    section = campaign_section(campaign)
+    mass = None
+    if towed and campaign.cable is not None and "mass_per_length" not in campaign.towing:
+        mass = equivalent_mass(campaign)
+    stated = campaign.section is not None and "EA" in campaign.section.stated
+    EA = section.EA_blocked_twist if towed and not stated and "EA" not in campaign.towing else None
+    return BenchModel(section, towing=TowingSetup.of(campaign, EA, mass))
+
+
+def equivalent_mass(campaign: Campaign) -> float:
+    """Mass per length [kg/m] of the campaign's cable, from its materials."""
+    assert campaign.cable is not None
+    path = campaign.folder / campaign.cable
+    return read_cable(path if path.is_file() else campaign.cable).mass_per_length
 
 
 def campaign_section(campaign: Campaign) -> BenchSection:

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from compare.findings import Findings
+from compare.fit_store import FILE
 from effects import Effect, find
 from geometry.errors import InputError
 from helicable.bench_campaign import bench_model, read_bench_campaign
@@ -35,6 +36,8 @@ def explain(
 ) -> None:
     """Find the physics that the linear model misses, and prove it on data that it did not fit.
 
+    With --out every finished fit is kept in the folder: the same command goes on from there after a kill.
+
     Example: `helicable explain my-campaign --out report`
     """
     read, notes = read_bench_campaign(campaign, "explain")
@@ -43,7 +46,8 @@ def explain(
 
     model, library = bench_model(read), None if effects is None else chosen_effects(effects)
     with progress("explaining") as tell:
-        findings = explain_campaign(model, read, progress=tell, library=library)
+        kept = None if out is None else folder(out) / FILE
+        findings = explain_campaign(model, read, progress=tell, library=library, store=kept)
     if open_sealed:
         if read.of_set("sealed"):
             with progress("opening the sealed experiments"):

@@ -18,6 +18,10 @@ CONTRACT = {
     "rig": "backlash grip-slip rig-compliance",
     "sensor": "sensor-offset sensor-drift sensor-lag",
 }
+TOWING = {
+    "physics": "trough-friction-stribeck viscous-drag added-load roller-resistance clamp-backlash polygon-effect",
+    "rig": "trolley-ratio-error",
+}
 
 
 @pytest.fixture
@@ -28,7 +32,7 @@ def fresh_plug_ins():
 
 
 def test_names_kinds_and_order_are_the_contracts():
-    expected = [(name, kind) for kind, names in CONTRACT.items() for name in names.split()]
+    expected = [(name, kind) for part in (CONTRACT, TOWING) for kind, names in part.items() for name in names.split()]
     assert [(e.name, e.kind) for e in library()] == expected
 
 
@@ -65,7 +69,7 @@ def test_find_names_the_nearest():
     assert find("grip-slip").kind == "rig"
     with pytest.raises(SpecError, match=r"did you mean viscoelasticity"):
         find("viscoelastic")
-    with pytest.raises(SpecError, match=r"lists all 18"):
+    with pytest.raises(SpecError, match=r"lists all 25"):
         find("qqq")
 
 
@@ -80,10 +84,10 @@ def test_register_adds_and_refuses_a_taken_name():
         with pytest.raises(SpecError, match=r"registered already.*replace=True"):
             register(other("my-play"))
         again = register(other("my-play", title="again"), replace=True)
-        assert find("my-play") is again and len(library()) == 19
+        assert find("my-play") is again and len(library()) == 26
     finally:
         unregister("my-play")
-    assert len(library()) == 18
+    assert len(library()) == 25
     with pytest.raises(SpecError, match="belongs to an effect of the library"):
         register(other("backlash"), replace=True)
 
@@ -101,7 +105,8 @@ SCALE = (Parameter("size", "1", "size", starts=lambda _paths: [0.5]),)
     [
         ({"name": "My Play"}, "small letters"),
         ({"kind": "magic"}, "none of physics, rig, sensor"),
-        ({"kinds": ("towing",)}, "kinds must be some of"),
+        ({"kinds": ("weaving",)}, "kinds must be some of"),
+        ({"kinds": ("towing",)}, "cannot act in towing"),
         ({"forms": ()}, "has no form"),
         ({"forms": bad_form("somewhere", lambda p: p.strain)}, "stage"),
         ({"forms": bad_form("section", lambda p: p.strain[:, None])}, "no strength"),
@@ -118,7 +123,7 @@ SCALE = (Parameter("size", "1", "size", starts=lambda _paths: [0.5]),)
 def test_an_effect_that_breaks_its_promises_is_refused_with_a_sentence(changes, words):
     with pytest.raises(SpecError, match=words):
         register(replace(other("mine"), **changes))
-    assert len(library()) == 18
+    assert len(library()) == 25
 
 
 def test_only_effects_can_be_registered():
@@ -165,7 +170,7 @@ def test_plug_ins_of_installed_packages(tmp_path, monkeypatch, fresh_plug_ins, c
     monkeypatch.syspath_prepend(str(tmp_path))
     with caplog.at_level(logging.WARNING, logger="effects.library"):
         names = [e.name for e in library()]
-    assert names[18:] == ["yard-play", "yard-slip", "yard-sag"]
+    assert names[25:] == ["yard-play", "yard-slip", "yard-sag"]
     assert find("yard-sag").kind == "rig"
     told = dict(zip("cdefgh", library_notes(), strict=True))
     for point, words in {
@@ -190,7 +195,7 @@ def test_a_package_with_unreadable_entry_points_does_not_take_the_others_with_it
     install(tmp_path, "torn", ["a line without a sign"])
     install(tmp_path, "deck_effects", ["deck = deck_effects:ONE", "quit = quitting_effects:ONE"])
     monkeypatch.syspath_prepend(str(tmp_path))
-    assert [e.name for e in library()][18:] == ["yard-play"]
+    assert [e.name for e in library()][25:] == ["yard-play"]
     torn, quits = library_notes()
     assert torn.startswith("package torn is left out") and "quit" in quits and "SystemExit" in quits
     sys.modules.pop("deck_effects", None)

@@ -22,8 +22,8 @@ def bench_paths(kind: str) -> list[BenchPath]:
 @pytest.mark.parametrize(("effect", "form"), CASES)
 def test_zero_strength(effect, form):
     """Columns times zero add zero at every start of a search, also where nothing was recorded; no NaN hides in them."""
-    if not form.strength:
-        pytest.skip("fixtures and filters are switched off by their shapes")
+    if not form.strength or form.stage == "chain":
+        pytest.skip("fixtures and filters are switched off by their shapes; towing effects have tests of their own")
     for path in bench_paths(effect.kinds[0]):
         for shape in product(*[p.starts([path]) for p in form.shape]):
             columns = form.respond(path, *shape)

@@ -43,8 +43,8 @@ def explained(monkeypatch):
     """compare.explain replaced: returns made findings and keeps what it was called with."""
     calls: dict[str, object] = {}
 
-    def explain(model, campaign, progress=None, library=None):
-        calls.update(explained=campaign, library=library)
+    def explain(model, campaign, progress=None, library=None, store=None):
+        calls.update(explained=campaign, library=library, model=model, store=store)
         return made_findings(calls.get("verdict", "identified"))
 
     def open_and_validate(findings, campaign):
@@ -115,24 +115,44 @@ def test_the_library_can_be_restricted(folder, explained, capsys):
     assert "plasticity" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("verb", ["check", "explain", "next", "add"])
-def test_towing_alone_is_refused_in_a_sentence(verb, tmp_path, capsys):
+@pytest.mark.parametrize("verb", ["check", "compare"])
+def test_towing_alone_is_read_and_run(verb, tmp_path, capsys):
+    """A campaign of towing needs no bench: its friction is calibrated, and the effects of the trough can be tested."""
     rows = "id,kind,file,specimen,repeat_of,set\nw,towing,w.csv,S,,calibrate\n"
     for name, text in {"campaign.toml": TOWING, "experiments.csv": rows, "w.csv": TOWED}.items():
         (tmp_path / name).write_text(text)
-    words = [verb, str(tmp_path), *(["plasticity"] if verb == "add" else [])]
-    assert main(words) == 2
+    assert main([verb, str(tmp_path)]) == 0
+    out = squeezed(capsys.readouterr().out)
+    assert ("friction coefficient" if verb == "compare" else "viscous-drag") in out
+    assert "[towing] gives no presliding; 0.3 mm is taken" in out or verb == "check"
+
+
+def test_towing_without_a_clock_is_refused_in_a_sentence(tmp_path, capsys):
+    rows = "id,kind,file,specimen,repeat_of,set\nw,towing,w.csv,S,,calibrate\n"
+    table = "\n".join(line.split(",", 1)[1] for line in TOWED.splitlines()) + "\n"
+    for name, text in {"campaign.toml": TOWING, "experiments.csv": rows, "w.csv": table}.items():
+        (tmp_path / name).write_text(text)
+    assert main(["explain", str(tmp_path)]) == 2
     err = squeezed(capsys.readouterr().err)
-    assert "bench kinds only so far" in err and "Traceback" not in err
+    assert "needs a clock" in err and "Traceback" not in err
 
 
-def test_towing_among_bench_experiments_is_left_aside_with_a_note(folder, explained, tmp_path, capsys):
+def test_towing_among_bench_experiments_is_explained_with_them(folder, explained, tmp_path):
     (folder / "campaign.toml").write_text(TOWING)
     with (folder / "experiments.csv").open("a") as file:
         file.write("w,towing,w.csv,S,,calibrate,,,\n")
     (folder / "w.csv").write_text(TOWED)
     assert main(["explain", str(folder)]) == 0
-    assert "left aside, because only bench kinds are explained so far: w (towing)" in squeezed(capsys.readouterr().out)
+    assert [e.kind for e in explained["explained"].experiments][-1] == "towing"
+    assert explained["model"].towing.friction == 0.35
+
+
+def test_finished_fits_are_kept_in_the_folder_of_the_report(folder, explained, tmp_path):
+    """So that the same command goes on from there after a kill; without --out nothing is written."""
+    assert main(["explain", str(folder), "--out", str(tmp_path / "out")]) == 0
+    assert explained["store"] == tmp_path / "out" / "fits.jsonl"
+    explained.clear()
+    assert main(["explain", str(folder)]) == 0 and explained["store"] is None
 
 
 def test_next_gives_the_experiment_and_its_probabilities(folder, explained, tmp_path, capsys):

@@ -1,0 +1,333 @@
+r"""The columns of a towing record: the axial chain made linear about its working point.
+
+The run f(x, a) of a record depends on the friction ratio x and on the strengths a of effects. With the calibrated base f(1, 0)
+and its slope J over x, the target and the columns are
+
+.. math::  y - f(1,0) + J \approx Z_0\,x + \sum_j Z_j a_j, \qquad Z_0 = J
+
+A new effect enters by a difference quotient at a small strength (one run per strength and record); where that explains
+anything it is fitted, the record run once more at the fitted values, and its column corrected by Broyden's rank-one update,
+so that the right hand side is exact at the fitted values and not linearised there. An effect that has shapes alone (a
+drive) changes Z_0 in the same way. Sensors act on the columns as on the bench. Runs are kept, so that nothing is run twice.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.bench_design import Block, Reading, Whitener, repeat_groups
+from compare.bench_model import BenchModel
+from compare.bench_path import LedPath, bench_paths
+from compare.bounded_least_squares import solve_bounded
+from compare.experiment import Experiment
+from compare.noise_floor import NoiseModel
+from compare.towing_setup import TowingSetup, read_channels, towing_path, with_effects
+from effects.effect import ActiveEffect, BenchPath, Form, Parameter
+from effects.effect_check import TOWED
+from geometry.errors import ConvergenceError, InputError
+
+Array = NDArray[np.float64]
+Terms = tuple[ActiveEffect, ...]
+_SLOPE = 0.02  # step of the friction ratio
+_WORTH_A_RUN = 8.0  # fall of the square residual below which a column is not corrected
+_MOST_ROUNDS = 5
+_CLOSE = 0.3  # square residual by which a linear column may be off the run
+_KEPT = 20_000
+_LOWEST = 0.02  # of the friction ratio
+_FAR = 5.0  # times the largest plausible strength
+
+
+@dataclass(frozen=True)
+class TowingRecord:
+    """One towing experiment with its readings; offers what :class:`compare.bench_design.BenchRecord` does."""
+
+    experiment: Experiment
+    led: LedPath = field(repr=False)
+    readings: tuple[Reading, ...] = field(repr=False)
+    response: TowingResponse = field(repr=False)
+
+    def columns(self, terms: Sequence[ActiveEffect], only: int | None = None) -> list[Array]:
+        """Columns of every reading, base first, then those of each term: (n, P); with `only` just those of one term."""
+        found = self.response.columns(self, tuple(terms))
+        if only is None:
+            return found
+        begin = 1 + sum(len(t.form.strength) for t in terms[:only])
+        return [Z[:, begin : begin + len(terms[only].form.strength)] for Z in found]
+
+    def inside(self, terms: Sequence[ActiveEffect]) -> BenchPath:
+        """The told path."""
+        return self.led.path
+
+    def whitened(self, terms: Sequence[ActiveEffect], only: int | None = None) -> Array:
+        """The columns of all readings one below the other, white: (N, P)."""
+        return np.vstack([r.whiten(Z) for r, Z in zip(self.readings, self.columns(terms, only), strict=True)])
+
+    @property
+    def target(self) -> Array:
+        """The measurements of all readings less the offset of the linear form, white: (N,)."""
+        return np.concatenate([r.whiten(r.y[:, None])[:, 0] for r in self.readings])
+
+
+@dataclass(frozen=True)
+class _Fit:
+    """Coefficients of the base and of every chain term, and the square residual that they leave."""
+
+    x: Array
+    square: float
+
+
+class TowingResponse:
+    """Runs of the chain for the records of a block, kept by what went into them.
+
+    Parameters
+    ----------
+    setup : TowingSetup
+    friction : float
+        Calibrated coefficient, about which x is 1.
+    """
+
+    def __init__(self, setup: TowingSetup, friction: float) -> None:
+        self.setup, self.friction = setup, friction
+        self.block: tuple[TowingRecord, ...] = ()
+        self._kept: OrderedDict[Hashable, Any] = OrderedDict()
+        self._led: dict[str, Hashable] = {}
+        self.runs = 0
+
+    def base(self, experiment: Experiment) -> tuple[list[Array], list[Array]]:
+        """f(1, 0) and its slope over the friction ratio, per channel."""
+        at, ahead = self.run(experiment, 1.0, ()), self.run(experiment, 1.0 + _SLOPE, ())
+        return at, [(b - a) / _SLOPE for a, b in zip(at, ahead, strict=True)]
+
+    def run(self, experiment: Experiment, x: float, terms: Terms) -> list[Array]:
+        """Tension of every channel at a friction ratio, with chain terms whose strengths are given."""
+        key = ("run", self._motion(experiment), float(x), *(_key(t) for t in terms))
+        return self._keep(key, lambda: self._run(experiment, x, terms))
+
+    def _motion(self, experiment: Experiment) -> Hashable:
+        """What a run depends on beside its terms; the same for repeats that were led alike."""
+        if experiment.id not in self._led:
+            path, given = towing_path(experiment, self.setup), experiment.conditions
+            assert path.time is not None
+            told = hash((path.time.tobytes(), path.strain.tobytes()))
+            self._led[experiment.id] = (
+                told, given.get("tail tension"), given.get("inclination"), experiment.record.measured
+            )  # fmt: skip
+        return self._led[experiment.id]
+
+    def _run(self, experiment: Experiment, x: float, terms: Terms) -> list[Array]:
+        self.runs += 1
+        cable = with_effects(self.setup.cable(experiment, self.friction * x), terms)
+        return list(read_channels(cable, experiment).values())
+
+    def columns(self, record: TowingRecord, terms: Terms) -> list[Array]:
+        """All columns in the order of `terms`, as the sensors read them."""
+        key = ("columns", record.experiment.id, *(_key(t) for t in terms))
+        return self._keep(key, lambda: self._columns(record, terms))
+
+    def _columns(self, record: TowingRecord, terms: Terms) -> list[Array]:
+        chain, sensors = _parts(terms)
+        return self._sensed(record, self._chain(record, chain, sensors), terms)
+
+    def _sensed(self, record: TowingRecord, inner: Sequence[Array], terms: Terms) -> list[Array]:
+        time, offset = record.led.path.time, self._offset(record.experiment)
+        found = []
+        for reading, Z, o in zip(record.readings, inner, offset, strict=True):
+            base, at, parts = Z[:, :1], 1, []
+            for term in terms:
+                k = len(term.form.strength)
+                of_chain = term.form.stage in TOWED
+                parts.append(Z[:, at : at + k] if of_chain else np.zeros((len(Z), k)))
+                at += k if of_chain else 0
+            Y = np.column_stack([base, *parts])
+            for term in terms:
+                if term.form.stage == "filter" and term.channel == reading.channel:
+                    lagged = term.form.respond(np.column_stack([Y, o]), time, *term.shape)
+                    Y = np.array(lagged[:, :-1])
+                    Y[:, 0] += lagged[:, -1] - o
+            begin = 1
+            for term in terms:
+                k = len(term.form.strength)
+                if term.form.stage == "bias" and term.channel == reading.channel:
+                    c = term.form.respond(record.led.path, *term.shape)
+                    Y[:, begin : begin + k] = c[:, None] if c.ndim == 1 else c
+                begin += k
+            found.append(np.ascontiguousarray(Y))
+        return found
+
+    def _offset(self, experiment: Experiment) -> list[Array]:
+        f, J = self.base(experiment)
+        return [a - b for a, b in zip(f, J, strict=True)]
+
+    def _chain(self, record: TowingRecord, chain: Terms, sensors: Terms) -> list[Array]:
+        """Columns of base and chain terms, (n, 1 + k) per reading."""
+        key = ("chain", record.experiment.id, *(_key(t) for t in chain), "|", *(_key(t) for t in sensors))
+        return self._keep(key, lambda: self._corrected(record, chain, sensors))
+
+    def _corrected(self, record: TowingRecord, chain: Terms, sensors: Terms) -> list[Array]:
+        if not chain:
+            return [J[:, None] for J in self.base(record.experiment)[1]]
+        Z = self._first(record, chain, sensors)
+        for x in self._visited(chain, sensors):
+            Z = self._updated(record, chain, Z, x)
+        return Z
+
+    def _updated(self, record: TowingRecord, chain: Terms, Z: Sequence[Array], x: Array) -> list[Array]:
+        """Broyden's update of the columns of the last term, or of the base for a drive, by the run at x."""
+        try:
+            f = self.run(record.experiment, float(x[0]), _with_strengths(chain, x))
+        except (ConvergenceError, InputError):
+            return list(Z)
+        k = len(chain[-1].form.strength)
+        own = slice(len(x) - k, len(x)) if k else slice(0, 1)
+        size = float(x[own] @ x[own])
+        updated = []
+        for fr, o, old in zip(f, self._offset(record.experiment), Z, strict=True):
+            new = old.copy()
+            new[:, own] += np.outer(fr - o - old @ x, x[own]) / size
+            updated.append(new)
+        return updated
+
+    def _first(self, record: TowingRecord, chain: Terms, sensors: Terms) -> list[Array]:
+        """Columns with the last term by difference quotients at small strengths, a drive at the friction that it was without."""
+        rest, term = chain[:-1], chain[-1]
+        Z, x = self._chain(record, rest, sensors), self._working(rest, sensors).x
+        if not term.form.strength:
+            return self._updated(record, chain, Z, x)
+        at = self.run(record.experiment, float(x[0]), _with_strengths(rest, x))
+        parts: list[list[Array]] = [[z] for z in Z]
+        for k, parameter in enumerate(term.form.strength):
+            probe = np.zeros(len(term.form.strength))
+            probe[k] = _probe(parameter)
+            try:
+                f = self.run(record.experiment, float(x[0]), _with_strengths(chain, np.append(x, probe)))
+            except (ConvergenceError, InputError):
+                f = at
+            for part, a, b in zip(parts, at, f, strict=True):
+                part.append(((b - a) / probe[k])[:, None])
+        return [np.hstack(part) for part in parts]
+
+    def _visited(self, chain: Terms, sensors: Terms) -> list[Array]:
+        """The coefficients at which the records are run to correct the columns, none where these explain too little."""
+        key = ("visited", *(_key(t) for t in chain), "|", *(_key(t) for t in sensors))
+        return self._keep(key, lambda: self._visit(chain, sensors))
+
+    def _visit(self, chain: Terms, sensors: Terms) -> list[Array]:
+        Z = [self._first(r, chain, sensors) for r in self.block]
+        k, visited = len(chain[-1].form.strength), []
+        found = self._fit(Z, chain, sensors)
+        if self._working(chain[:-1], sensors).square - found.square < _WORTH_A_RUN:
+            return []
+        while len(visited) < _MOST_ROUNDS and (not k or found.x[-k:].any()):
+            visited.append(found.x)
+            new = [self._updated(r, chain, z, found.x) for r, z in zip(self.block, Z, strict=True)]
+            missed = sum(
+                float(np.sum(reading.whiten((a - b) @ found.x[:, None]) ** 2))
+                for r, zs, olds in zip(self.block, new, Z, strict=True)
+                for reading, a, b in zip(r.readings, zs, olds, strict=True)
+            )
+            Z = new
+            if missed < _CLOSE:
+                break
+            found = self._fit(Z, chain, sensors)
+        return visited
+
+    def _working(self, chain: Terms, sensors: Terms) -> _Fit:
+        """Coefficients of base and chain terms at which the columns are fitted to the block."""
+        key = ("working", *(_key(t) for t in chain), "|", *(_key(t) for t in sensors))
+        return self._keep(key, lambda: self._fit([self._chain(r, chain, sensors) for r in self.block], chain, sensors))
+
+    def _fit(self, Z: Sequence[Sequence[Array]], chain: Terms, sensors: Terms) -> _Fit:
+        terms = (*chain, *sensors)
+        P = 1 + sum(len(t.form.strength) for t in terms)
+        A, b, yy = np.zeros((P, P)), np.zeros(P), 0.0
+        for record, own in zip(self.block, Z, strict=True):
+            for reading, columns in zip(record.readings, self._sensed(record, own, terms), strict=True):
+                white = reading.whiten(np.column_stack([columns, reading.y]))
+                A += white[:, :-1].T @ white[:, :-1]
+                b += white[:, :-1].T @ white[:, -1]
+                yy += float(white[:, -1] @ white[:, -1])
+        scale = 1 / np.sqrt(np.maximum(np.diag(A), 1e-300))
+        positive = np.array([True, *(p.low >= 0 for t in terms for p in t.form.strength)], dtype=np.bool_)
+        x = np.zeros((1, P))
+        unit = A * scale[:, None] * scale + 1e-10 * np.eye(P)
+        solve_bounded(np.ascontiguousarray(unit[None]), np.ascontiguousarray((b * scale)[None]), positive, x)
+        full = x[0] * scale
+        square = float(yy - 2 * full @ b + full @ A @ full)
+        return _Fit(_sane(full[: P - sum(len(t.form.strength) for t in sensors)], chain), square)
+
+    def _keep(self, key: Hashable, make: Any) -> Any:
+        if key in self._kept:
+            self._kept.move_to_end(key)
+            return self._kept[key]
+        value = make()
+        self._kept[key] = value
+        while len(self._kept) > _KEPT:
+            self._kept.popitem(last=False)
+        return value
+
+
+def towing_block(experiments: Sequence[Experiment], model: BenchModel, noise: NoiseModel) -> Block:
+    """The block of all towing experiments, about a calibrated base model."""
+    assert model.towing is not None
+    base = tuple(p.name for p in model.free_parameters(experiments))
+    response = TowingResponse(model.towing, model.stiffness("friction coefficient"))
+    paths = bench_paths(experiments, model)
+    records = tuple(towing_record(e, paths[e.id], response, noise) for e in experiments)
+    response.block = records
+    return Block("towing", base, records, repeat_groups(experiments))  # type: ignore[arg-type]
+
+
+def towing_record(
+    experiment: Experiment, led: LedPath, response: TowingResponse, noise: NoiseModel | Sequence[Reading]
+) -> TowingRecord:
+    """A record with its readings; their noise from a noise model, or as that of other readings."""
+    f, J = response.base(experiment)
+    readings = []
+    for i, channel in enumerate(experiment.record.measured):
+        covariance = noise.of(experiment, channel) if isinstance(noise, NoiseModel) else noise[i].whiten.noise
+        y = experiment.record[channel] - f[i] + J[i]
+        whiten = Whitener.of(covariance, f[i])
+        readings.append(Reading(channel, "tension", y, np.ones(1), 1.0, whiten, f[i]))
+    return TowingRecord(experiment, led, tuple(readings), response)
+
+
+def _parts(terms: Terms) -> tuple[Terms, Terms]:
+    return tuple(t for t in terms if t.form.stage in TOWED), tuple(t for t in terms if t.form.stage not in TOWED)
+
+
+def _key(term: ActiveEffect) -> Hashable:
+    return term.effect.name, term.form.name, term.channel, term.shape, term.strength
+
+
+def _with_strengths(chain: Terms, x: Array) -> Terms:
+    """Chain terms with the coefficients x (1 + k) of base and strengths."""
+    found, at = [], 1
+    for term in chain:
+        k = len(term.form.strength)
+        found.append(replace(term, strength=tuple(float(v) for v in x[at : at + k])))
+        at += k
+    return tuple(found)
+
+
+def _probe(parameter: Parameter) -> float:
+    low, high = parameter.plausible
+    if not np.isfinite(high):
+        return 0.01
+    return float(np.sqrt(low * high)) if low > 0 else 0.1 * high
+
+
+def _sane(x: Array, chain: Terms) -> Array:
+    """Coefficients at which a chain can be run: a friction above zero, strengths not far beyond what is plausible."""
+    limits: list[tuple[float, float]] = [(_LOWEST, 1 / _LOWEST)]
+    forms: list[Form] = [t.form for t in chain]
+    for parameter in (p for f in forms for p in f.strength):
+        far = _FAR * max(abs(v) for v in parameter.plausible)
+        limits.append((max(parameter.low, -far), min(parameter.high, far)))
+    low, high = np.array(limits).T
+    return np.clip(x, low, high)

@@ -1,0 +1,77 @@
+r"""Speed ripple of a round-link chain on its sprocket, at the frequency at which pockets pass.
+
+.. math::  v_\text{true} = v\,[1 + A \cos\theta - B \sin\theta], \qquad \theta = 2\pi x/\lambda
+
+x is the told travel and lambda the travel from pocket to pocket, so that the frequency is v/lambda. A chain on z pockets runs
+between R and R cos(pi/z), a ripple of about pi^2/(4 z^2) to either side. The told position does not know of it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from effects.effect import Array, BenchPath, Effect, Form, Parameter, Starts
+from effects.sensor_drift import needs_clock
+from effects.towed_cable import TowedCable
+
+_SHORTEST, _LONGEST, _MOST = 0.04, 0.4, 60
+
+
+def _act(cable: TowedCable, strength: Sequence[float], pitch: float) -> TowedCable:
+    A, B = (float(v) for v in strength)
+    speed = float(np.abs(np.diff(cable.position) / np.diff(cable.time)).max())
+
+    def drive(t: Array, motion: Array) -> Array:
+        k = 2 * math.pi / pitch
+        x, v, a = motion.T
+        c, s = np.cos(k * x), np.sin(k * x)
+        ripple = A * c - B * s
+        p = x + (A * s + B * (c - 1)) / k
+        return np.column_stack([p, v * (1 + ripple), a * (1 + ripple) - v**2 * k * (A * s + B * c)])
+
+    return cable.driven(drive, pitch / speed) if speed > 0 and (A or B) else cable
+
+
+def _pitches(paths: Sequence[BenchPath]) -> Array:
+    """Evenly spaced in 1/travel, half a ripple of the longest record apart, at most so many."""
+    longest = max((float(np.ptp(p.strain)) for p in paths), default=0.0)
+    m = int(np.clip(2 * longest * (1 / _SHORTEST - 1 / _LONGEST), 6, _MOST))
+    return np.sort(1 / np.linspace(1 / _LONGEST, 1 / _SHORTEST, m))
+
+
+_STARTS: Starts = _pitches
+
+
+def _part(name: str, meaning: str) -> Parameter:
+    return Parameter(
+        name, "1", meaning, low=-np.inf, plausible=(-0.2, 0.2),
+        source="pi^2/(4 z^2) for 4 to 12 pockets: 2 to 15 %",
+    )  # fmt: skip
+
+
+EFFECT = Effect(
+    name="polygon-effect",
+    kind="physics",
+    title="speed ripple of the round-link chain at pocket-passing frequency",
+    equation="v_true = v (1 + A cos(2 pi x/lambda) - B sin(2 pi x/lambda))",
+    source="chain drives, e.g. Fuglede & Thomsen, Mech. Mach. Theory 100 (2016) 56",
+    needs="a clock, samples at least four times as often as pockets pass in the slower records, and two speeds",
+    signature="a ripple of the tension whose period is a length of travel, not a time; strongest where it meets a mode of the cable",
+    kinds=("towing",),
+    forms=(
+        Form(
+            "one harmonic", "chain", _act,
+            shape=(
+                Parameter(
+                    "pocket travel", "m", "travel from pocket to pocket", low=1e-3, plausible=(0.03, 0.6),
+                    source="round-link chains of ISO 610, pitch 50 to 152 mm, one or two pitches a pocket", starts=_STARTS,
+                ),
+            ),
+            strength=(_part("cosine part", "ripple in phase with the start"), _part("sine part", "ripple a quarter later")),
+        ),
+    ),
+    why_untestable=needs_clock,
+)  # fmt: skip

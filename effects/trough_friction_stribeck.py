@@ -1,0 +1,59 @@
+r"""Friction on the trough that falls with sliding speed.
+
+.. math::  \mu(v) = \mu + \Delta\mu\, e^{-(|v|/v_s)^p}
+
+mu is the coefficient at high speed, that which is calibrated; Delta mu the excess at rest, v_s the speed at which it goes.
+Plain form p = 1 (Tustin 1947; Bo & Pavelescu, Wear 82 (1982) 277), richer p = 2 (Armstrong-Helouvry et al., Automatica
+30 (1994) 1083). Every point of the cable slides at its own speed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from effects.effect import BenchPath, Effect, Form, Parameter
+from effects.towed_cable import TowedCable, largest_speed, of_speed
+
+
+def _law(power: float) -> Callable[..., TowedCable]:
+    def act(cable: TowedCable, strength: Sequence[float], fall_speed: float) -> TowedCable:
+        return cable.with_chain(fall=float(strength[0]), fall_speed=fall_speed, fall_power=power)
+
+    return act
+
+
+def _why_untestable(paths: Sequence[BenchPath]) -> str | None:
+    if all(largest_speed(p) == 0 for p in paths):
+        return "the towed end does not move in any record"
+    return None
+
+
+_SHAPE = (
+    Parameter(
+        "fall speed", "m/s", "speed at which the excess has fallen to 1/e", low=1e-6, plausible=(1e-3, 3.0),
+        source="rubber and polymers on steel: millimetres to metres per second (Persson, Sliding Friction, 2000)",
+        starts=of_speed(0.03, 1.0, 6),
+    ),
+)  # fmt: skip
+_STRENGTH = (
+    Parameter(
+        "fall", "1", "friction coefficient at rest less that at high speed", plausible=(0.005, 0.6),
+        source="dry and wet rubber on steel: static less kinetic friction up to about 0.5 (Persson, Sliding Friction, 2000)",
+    ),
+)  # fmt: skip
+
+EFFECT = Effect(
+    name="trough-friction-stribeck",
+    kind="physics",
+    title="friction on the trough falls with sliding speed",
+    equation="mu(v) = mu + fall exp(-(|v|/v_s)^p)",
+    source="Bo & Pavelescu, Wear 82 (1982) 277; Armstrong-Helouvry et al., Automatica 30 (1994) 1083",
+    needs="at least two speeds, or slow and fast phases in a record",
+    signature="more friction where the cable is slow: a peak at breaking away, and a gap between slow and fast records",
+    kinds=("towing",),
+    forms=(
+        Form("exponential", "chain", _law(1.0), shape=_SHAPE, strength=_STRENGTH),
+        Form("Gaussian", "chain", _law(2.0), shape=_SHAPE, strength=_STRENGTH),
+    ),
+    why_untestable=_why_untestable,
+)

@@ -1,0 +1,109 @@
+"""Effects that were found on the bench go into the towing run: `helicable tow SCENARIO --effects explain.json`."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from effects import find
+from effects.effect import ActiveEffect, BenchPath
+from effects.effect_record import active_effect, effect_record, read_effects
+from geometry.errors import SpecError
+from helicable.commands import tow as command
+from helicable.main import main
+
+ROOT = Path(__file__).resolve().parents[2]
+FRICTION = ActiveEffect(
+    find("interlayer-friction"), find("interlayer-friction").forms[0], "bending", None, (0.3, 0.8), (0.5,),
+    BenchPath("bending", np.zeros(0), largest=1.5, typical_tension=2000.0),
+)  # fmt: skip
+LAG = ActiveEffect(find("sensor-lag"), find("sensor-lag").forms[0], "bending", "moment", (0.2,))
+
+
+@pytest.fixture
+def file(tmp_path):
+    path = tmp_path / "explain.json"
+    path.write_text(json.dumps({"schema": 1, "found": [effect_record(FRICTION), effect_record(LAG)]}))
+    return path
+
+
+def test_a_record_brings_the_effect_back(file):
+    first, second = read_effects(file)
+    assert (first.effect, first.form, first.shape, first.strength) == (
+        FRICTION.effect,
+        FRICTION.form,
+        (0.3, 0.8),
+        (0.5,),
+    )
+    assert (first.reference.largest, first.reference.typical_tension) == (1.5, 2000.0)
+    assert second.channel == "moment"
+
+
+def test_section_effects_reach_the_rod_and_the_change_is_shown(file, monkeypatch, capsys):
+    """The run gets their law, the second run none; sensors are left aside by name."""
+    laws = []
+
+    class Made:
+        status, outcome = "completed", type("Outcome", (), {"completed": True})
+
+        def __init__(self, pull):
+            self.pull = pull
+
+        def record(self):
+            return {"peak_tension": 2 * self.pull, "pull_force_plateau": self.pull}
+
+    def run(scenario, section, progress=None, law=None, file=None, resume=False, settings=None):
+        laws.append((law, section))
+        return Made(1000.0 if law is None else 1100.0)
+
+    monkeypatch.setattr(command, "run_towing", run)
+    monkeypatch.setattr(command, "show_run", lambda run, used: None)
+    assert main(["tow", "intelligent-horizontal", "--constants", "published", "--effects", str(file)]) == 0
+    out = " ".join(capsys.readouterr().out.split())
+    (law, section), (none, _) = laws
+    assert none is None and law.section is section and [a.effect.name for a in law.active] == ["interlayer-friction"]
+    assert "left aside, because they do not act in the section: sensor-lag (bending)" in out
+    assert "1000.0 N" in out and "1100.0 N" in out and "+10.00 %" in out
+
+
+def test_damping_of_the_bench_raises_the_pull_of_the_rod(tmp_path):
+    """A cable that resists bending at a rate takes work at the roller: end to end, from the file of the findings to the pull."""
+    text = (ROOT / "data" / "scenarios" / "intelligent-horizontal.toml").read_text(encoding="utf-8")
+    for told, short in (
+        ("{ value = 400,", "{ value = 86,"),
+        ('"10 s", status = "assumed", range = ["6 s"', '"0.8 s", status = "assumed", range = ["0.5 s"'),
+        ('"0.5 s", status = "assumed", range = ["0 s"', '"0 s", status = "assumed", range = ["0 s"'),
+        ('"2.5 s", status = "assumed", range = ["1 s"', '"0.4 s", status = "assumed", range = ["0.2 s"'),
+    ):
+        assert text.count(told) == 1
+        text = text.replace(told, short)
+    scenario, found, out = tmp_path / "short.toml", tmp_path / "found.json", tmp_path / "tow.json"
+    scenario.write_text(text, encoding="utf-8")
+    damping = find("viscous-damping")
+    active = ActiveEffect(damping, damping.forms[0], "bending", strength=(1.0,))
+    found.write_text(json.dumps({"schema": 1, "found": [effect_record(active)]}))
+    assert main(["tow", str(scenario), "--constants", "published", "--effects", str(found), "--json", str(out)]) == 0
+    record = json.loads(out.read_text())
+    assert record["status"] == "completed"
+    without = record["without_effects"]["pull_force_plateau"]
+    assert record["pull_force_plateau"] > 1.01 * without  # the peak, a wave of the start, is damped instead
+
+
+def test_what_cannot_act_in_a_rod_is_refused_in_a_sentence(file, tmp_path):
+    other = tmp_path / "other.json"
+    for text, words in (
+        (
+            json.dumps({"found": [effect_record(LAG)]}),
+            r"none of the effects that were found \(sensor-lag \(bending\)\)",
+        ),
+        ("{}", "this is not the JSON of `helicable explain`"),
+        (json.dumps({"found": [{**effect_record(FRICTION), "form": "older"}]}), 'no form "older"'),
+    ):
+        other.write_text(text)
+        with pytest.raises(SpecError, match=words):
+            command.section_effects(other)
+    with pytest.raises(SpecError, match="cannot be read"):
+        command.section_effects(tmp_path / "none.json")
+    with pytest.raises(SpecError, match="no record of an effect"):
+        active_effect({"effect": "plasticity"})
