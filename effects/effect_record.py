@@ -3,7 +3,7 @@
 >>> from effects import find
 >>> form = find("plasticity").forms[0]
 >>> one = ActiveEffect(find("plasticity"), form, "bending", shape=(0.1,), strength=(2.0,))
->>> active_effect(effect_record(one)) == one
+>>> effect_record(active_effect(effect_record(one))) == effect_record(one)
 True
 """
 

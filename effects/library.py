@@ -85,7 +85,7 @@ def find(name: str) -> Effect:
     'rig'
     >>> find("back-lash")
     Traceback (most recent call last):
-    geometry.errors.SpecError: there is no effect "back-lash" in the library; did you mean backlash? ...
+    geometry.errors.SpecError: there is no effect "back-lash" in the library; did you mean backlash or clamp-backlash? ...
     """
     known = {e.name: e for e in library()}
     if name in known:

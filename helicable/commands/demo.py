@@ -225,6 +225,8 @@ def _towing_section(run: TowingRun, used: BeamConstants, other: TowingRun, pictu
         "cable": "The cable at four times, tension as colour",
         "node-forces": "Section forces at the published nodes",
         "pull-force": "Pull force beside the incline formulas",
+        "forces": "Forces at the published nodes in three directions, in the layout of the source",
+        "courses": "Displacements, bushing 3, contact 35 and the incline formulas, in the layout of the source",
         "energies": "Where the work of the drives goes",
     }
     figures = [Figure(p, captions[p.stem.removeprefix("towing-")]) for p in pictures]

@@ -1,5 +1,6 @@
 """The campaigns that ship: what their makers write is what is stored, and the disclosed truth comes back."""
 
+import hashlib
 import pathlib
 
 import numpy as np
@@ -31,11 +32,13 @@ def test_the_disclosed_stiffness_comes_back_and_nothing_is_missing():
 def test_the_campaign_with_a_hidden_effect_is_reproduced_and_its_truth_stays_outside(tmp_path, monkeypatch):
     """The truth stands beside the folder, and nothing in the folder names the effect."""
     monkeypatch.setattr(hidden_effect_campaign, "FOLDER", tmp_path / "made")
-    monkeypatch.setattr(hidden_effect_campaign, "TRUTH", tmp_path / "truth.md")
     hidden_effect_campaign.main()
     assert {p.name for p in HIDDEN.iterdir()} == {p.name for p in (tmp_path / "made").iterdir()}
-    assert all(p.read_bytes() == (tmp_path / "made" / p.name).read_bytes() for p in HIDDEN.iterdir())
-    assert (tmp_path / "truth.md").read_bytes() == (FOLDER.parent / "truth.md").read_bytes()
+    data = [p for p in HIDDEN.iterdir() if p.name != "README.md"]
+    assert all(p.read_bytes() == (tmp_path / "made" / p.name).read_bytes() for p in data)
+    page, made = ((folder / "README.md").read_text(encoding="utf-8") for folder in (HIDDEN, tmp_path / "made"))
+    assert page.startswith(made.rstrip())  # what follows is the hash of the truth
+    assert hashlib.sha256((FOLDER.parent / "truth.json").read_bytes()).hexdigest() in page
     told = "".join(p.read_text(encoding="utf-8") for p in HIDDEN.iterdir())
     assert not any(word in told for word in ("friction", "slip", "layer"))
     assert sum(p.stat().st_size for p in HIDDEN.iterdir()) < 4e5
