@@ -86,7 +86,7 @@ def test_sliding_conductors_are_a_choice(homogenized, tmp_path):
 
 def test_the_slice_gives_the_6x6_and_null_where_it_does_not_compute(tmp_path, capsys):
     file = tmp_path / "cell.json"
-    assert main(["homogenize", CABLE, "--method", "cell", "--size", "6 mm", "--json", str(file)]) == 0
+    assert main(["homogenize", CABLE, "--method", "cell", "--size", "8 mm", "--json", str(file)]) == 0
     record = json.loads(file.read_text())
     assert np.linalg.eigvalsh(record["section"]["C"]).min() > 0
     assert record["section"]["EI_x"] == pytest.approx(70.4, rel=0.05)  # the 2D cell
