@@ -26,7 +26,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from beam.compiled import kernel
+from beam.compiled import embedded, kernel
 from geometry.errors import ConvergenceError, InputError
 
 Array = NDArray[np.float64]
@@ -251,6 +251,12 @@ def _read(s: float, h: float, out: Array) -> Array:
     return (1 - w) * values[:, j] + w * values[:, j + 1]
 
 
+@embedded
+def _exponential(x: float) -> float:
+    """exp(x) by its series for |x| < 1/16, to 1e-12."""
+    return 1 + x * (1 + x * (1 / 2 + x * (1 / 6 + x * (1 / 24 + x * (1 / 120 + x * (1 / 720))))))
+
+
 @kernel
 def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
     t: Array,
@@ -282,8 +288,10 @@ def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
     stiff = normal * ((mu + fall) / travel)
     slope = stiff.copy()
     close = normal * ((mu + fall) * TOLERANCE)
-    row, led, lost_f, lost_d, lost_c, pull, dt, kk = 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    row, led, lost_f, lost_d, lost_c, pull = 0, 0.0, 0.0, 0.0, 0.0, 0.0
+    dt, kk, per_fall = 0.0, 0.0, 0.0
     counted = len(energies) > 0
+    told, excess = np.full(n, -1.0), np.zeros(n)  # where the excess of friction was last worked out in full
     stale = 1  # the first node whose factors are not those of `slope`
     v[0], a[0] = motion[0, 1], motion[0, 2]
     for i in range(len(t)):
@@ -291,6 +299,7 @@ def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
             if abs(t[i] - t[i - 1] - dt) > 1e-9 * dt:  # steps that differ by rounding are the same
                 dt = t[i] - t[i - 1]
                 kk = k * (1.0 + 2.0 * beta / dt)
+                per_fall = 1.0 / (dt * fall_speed)
                 stale = 1
                 for j in range(n):
                     inertia[j] = 4.0 * M[j] / dt**2 + 2.0 * viscous[j] / dt
@@ -334,17 +343,21 @@ def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
                         trial = f[j] + stiff[j] * du
                         new[j], tangent[j] = trial, stiff[j]
                         if abs(trial) > normal[j] * mu:
-                            speed = abs(du) / dt
-                            q = speed / fall_speed
+                            q, rise = abs(du) * per_fall, power
                             if power == 2.0:
-                                q = q * q
+                                q, rise = q * q, 2.0 * q
                             elif power != 1.0:
-                                q = q**power
-                            e = fall * math.exp(-q)
+                                ratio = q
+                                q = ratio**power
+                                rise = power * q / (ratio + 1e-300)
+                            ahead = told[j] - q
+                            if abs(ahead) > 0.0625:
+                                told[j], excess[j], ahead = q, fall * math.exp(-q), 0.0
+                            e = excess[j] * _exponential(ahead)
                             top = normal[j] * (mu + e)
                             if abs(trial) > top:
                                 new[j] = math.copysign(top, trial)
-                                tangent[j] = -normal[j] * e * q * power / (speed + 1e-300) / dt
+                                tangent[j] = -normal[j] * e * rise * per_fall
                 else:
                     for j in range(n):
                         trial = f[j] + stiff[j] * (u1[j] - u[j])
