@@ -288,7 +288,7 @@ class Scan:
         rough &= self.dear
         if rough:
             self._response.prepare([terms])
-        if term.form.stage in ("fixture", "filter", "drive"):
+        if term.form.stage in ("fixture", "filter", "drive") or (self.dear and term.form.stage == "bias"):
             return [_sample_white(record, terms, None, rough, near) for record in self.block.records]
         if term.form.stage != "section" or not self._plain:
             own = [_sample_white(record, terms, len(self.accepted), rough, near) for record in self.block.records]

@@ -247,12 +247,12 @@ class TowingResponse:
         return self._first(record, terms)
 
     def _updated(self, record: TowingRecord, chain: Terms, Z: Sequence[Array], x: Array) -> list[Array]:
-        """Broyden's update of the columns of the last term, or of the base for a drive, by the run at x."""
+        """Broyden's update of the columns of the last chain term, or of the base for a drive or a sensor alone, by the run at x."""
         try:
             f = self.run(record.experiment, float(x[0]), _with_strengths(chain, x))
         except (ConvergenceError, InputError):
             return list(Z)
-        k = len(chain[-1].form.strength)
+        k = len(chain[-1].form.strength) if chain else 0
         own = slice(len(x) - k, len(x)) if k else slice(0, 1)
         size = float(x[own] @ x[own])
         if size == 0.0:
@@ -287,14 +287,14 @@ class TowingResponse:
 
     def _visit(self, terms: Terms) -> list[Array]:
         chain = _parts(terms)[0]
-        if not chain:
+        if not terms:
             return []
         self.prepare([terms])
         Z = [self._begin(r, terms) for r in self.block]
-        k, visited = len(chain[-1].form.strength), []
+        k, visited = len(chain[-1].form.strength) if chain else 0, []
         found = self._fit(Z, terms)
         gain = self._working(terms[:-1]).square - found.square
-        if terms[-1] is chain[-1] and gain < _WORTH_A_RUN:
+        if (not chain or terms[-1] is chain[-1]) and gain < _WORTH_A_RUN:
             return []
         while len(visited) < _MOST_ROUNDS and (not k or found.x[-k:].any()):
             visited.append(found.x)
