@@ -91,7 +91,7 @@ def test_clean_part_of_the_towing_campaigns_is_that_of_another_simulator(site):
 def test_towing_runs_are_those_of_the_simulator(site):
     """The first eighth of the fastest run to calibrate, made again: both repeats lie round it within the noise.
 
-    Finite volumes give the same: EQUAL of the swing (20 finite elements there, 40 cells here).
+    Finite volumes give the same within 0.3 % of the swing (0.09 % found, with 20 finite elements there and 40 cells here).
     """
     t = np.linspace(0.0, DURATION, SAMPLES)[: SAMPLES // 8]
     condition = site.conditions()[2]
