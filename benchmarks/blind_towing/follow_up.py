@@ -1,7 +1,7 @@
 """Suggest and do: the towing experiment that `explain` proposes is made by the generator and added to the campaign.
 
-The control is a random experiment of the same cost, as :mod:`compare.next_towing` counts it: 1 for an inclination and 1 for a tail tension beyond
-what was tested, 0.5 for another speed.
+The control is a random experiment of the same cost, as :mod:`compare.next_towing` counts it: 1 for an inclination and 1 for
+a tail tension beyond what was tested, 0.5 for another speed.
 """
 
 from __future__ import annotations
@@ -28,10 +28,12 @@ def done(made: TowingCampaign, conditions: Mapping[str, float]) -> TowingCampaig
 def at_random(rng: np.random.Generator, made: TowingCampaign, conditions: Mapping[str, float]) -> dict[str, float]:
     """An experiment of the same cost as the proposed one.
 
-    As many of inclination and tail tension as there go beyond what was tested, drawn at random, by up to 8 degrees and up to the double; the
-    others are drawn within what was tested. The speed is one that was driven, or if the proposed one is not, any from a quarter to the double of the largest.
+    As many of inclination and tail tension as there go beyond what was tested, drawn at random, by up to 8 degrees and up to the
+    double; the others are drawn within what was tested. The speed is one that was driven, or if the proposed one is not, any from a
+    quarter to the double of the largest.
     """
-    slopes, tails = ([round(x, 6) for x in v] for v in zip(*((math.degrees(c.slope), c.tail) for c in made.conditions), strict=True))  # fmt: skip
+    slopes = [round(math.degrees(c.slope), 6) for c in made.conditions]
+    tails = [c.tail for c in made.conditions]
     speeds = [c.speed for c in made.conditions]
     beyond = [conditions[SLOPE] > max(slopes) + 1e-6, conditions[TAIL] > 1.001 * max(tails)]
     moved = [beyond[i] for i in rng.permutation(2)]

@@ -215,8 +215,8 @@ def _plan(rng: np.random.Generator) -> tuple[tuple[float, float, float, str], ..
 def label_of(made: TowingCampaign, library: Sequence[str] = ()) -> dict[str, Any]:
     """What is true of a campaign, for the score only; the keys that :mod:`benchmarks.blind.judge` asks for.
 
-    `library` names the effects that may be rivals of the truth; all by default. `apart` is the distance of the nearest of them, `twins` are those
-    that are closer than :data:`benchmarks.blind.judge.CLOSE` (:mod:`benchmarks.blind_towing.rivals`).
+    `library` names the effects that may be rivals of the truth; all by default. `apart` is the distance of the nearest of them,
+    `twins` are those that are closer than :data:`benchmarks.blind.judge.CLOSE` (:mod:`benchmarks.blind_towing.rivals`).
     """
     D = made.distance() if made.truths else 0.0
     near = rivals(made, library) if made.group == "single" else {}

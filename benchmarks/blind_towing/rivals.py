@@ -3,10 +3,10 @@ r"""Which other effects could imitate a towing truth within the noise: each fitt
 .. math::  d_j = \sqrt 2 \min_{\Delta\mu, a} \bigl\| W\,[y_\text{truth} - y_j(\mu + \Delta\mu, a)] \bigr\|
 
 W whitens with the noise that was drawn, the root of two counts the repeats, j is an effect of :mod:`benchmarks.blind_towing.truths`
-in its first variant, with a strength a >= 0 (either sign for an offset, a drift, a ratio) and a few drawn shapes. The first fit is linear in
-the change at a = 1; what comes near is run at what was fitted and mended by Gauss-Newton steps, so that a distance below half of that of the
-base model is one that a run has, and an upper limit. The same definition (both repeats, close below 5) as :mod:`benchmarks.blind.rivals`
-has for the bench.
+in its first variant, with a strength a >= 0 (either sign for an offset, a drift, a ratio) and a few drawn shapes. The first fit
+is linear in the change at a = 1; what comes near is run at what was fitted and mended by Gauss-Newton steps, so that a distance
+below half of that of the base model is one that a run has, and an upper limit. The same
+definition (both repeats, close below 5) as :mod:`benchmarks.blind.rivals` has for the bench.
 """
 
 from __future__ import annotations

@@ -118,9 +118,9 @@ def shares(rows: Iterable[Row]) -> list[Share]:
     return [
         Share("nulls: anything but none", sum(r["verdict"] != "none" for r in null), len(null), "<= 0.01"),
         Share("single: exactly that one", sum(map(right, single)), len(single), ">= 0.90"),
-        Share("single: truth named, alone or in a set", sum(r["label"]["effects"][0] in named(r) for r in single), len(single), ">= 0.97"),
+        Share("single: truth named, alone or in a set", sum(map(among, single)), len(single), ">= 0.97"),
         Share("single: wrongly", sum(map(wrong, single)), len(single), "<= 0.02"),
-        Share("a rival within the noise: truth named, alone or in a set", sum(r["label"]["effects"][0] in named(r) for r in close), len(close), ">= 0.97"),
+        Share("a rival within the noise: truth named, alone or in a set", sum(map(among, close)), len(close), ">= 0.97"),
         Share("a rival within the noise: anything but truth and twins named", sum(map(beside, close)), len(close), "<= 0.02"),
         Share("pairs: both named", sum(set(r["label"]["effects"]) <= set(named(r)) for r in pair), len(pair), ">= 0.80"),
         Share("outside: unknown", sum(map(right, outside)), len(outside), ">= 0.85"),
@@ -129,6 +129,11 @@ def shares(rows: Iterable[Row]) -> list[Share]:
         Share("validation error below 1.5 noise floors", sum((r.get("after") or 9.0) < 1.5 for r in known), len(known), ">= 0.90"),
         Share("broke down", sum(r["verdict"] == "crash" for v in by.values() for r in v), sum(map(len, by.values())), "0"),
     ]  # fmt: skip
+
+
+def among(row: Row) -> bool:
+    """Whether the first truth is named, alone or in a set."""
+    return row["label"]["effects"][0] in named(row)
 
 
 def beside(row: Row) -> bool:
@@ -166,6 +171,7 @@ def table(rows: Sequence[Row]) -> str:
         errors = f"{row['before']:.2f}, {row['after']:.2f}" if row.get("after") else "-"
         lines.append(
             f"| {' + '.join(label['effects']) or '(none)'} | {' + '.join(label['variants'])} | {label['strength']:g} | "
-            f"{label['noise']} {label['size']:g} | {label['D']:.0f} | {rival} | {row['verdict']}: {names or '-'} | {errors} | {row['seconds']:.0f} |"
+            f"{label['noise']} {label['size']:g} | {label['D']:.0f} | {rival} | "
+            f"{row['verdict']}: {names or '-'} | {errors} | {row['seconds']:.0f} |"
         )
     return "\n".join(lines) + "\n"

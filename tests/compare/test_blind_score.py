@@ -47,7 +47,13 @@ def bench_answer(seed, folder):
                   effects=truth, kind=kind, noise=noise)  # fmt: skip
     found = explained(write(made, folder))
     as_it_is = found.effects == truth and not found.confusable and (found.verdict == "none") == (not truth)
-    return as_it_is and found.errors["validate"].after < 1.5, (seed, truth, found.verdict, found.effects, found.confusable)
+    return as_it_is and found.errors["validate"].after < 1.5, (
+        seed,
+        truth,
+        found.verdict,
+        found.effects,
+        found.confusable,
+    )
 
 
 def test_bench_campaigns(tmp_path):
