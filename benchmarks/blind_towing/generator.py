@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import copy
 import math
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ from numpy.typing import NDArray
 from benchmarks.blind.noise import Noise
 from benchmarks.blind_towing.folder import write_folder
 from benchmarks.blind_towing.motion import Motion, to_and_fro
+from benchmarks.blind_towing.rivals import rivals, twins
 from benchmarks.blind_towing.towed_line import Line, rest_tension, tow
 from benchmarks.blind_towing.truths import LIBRARY, OUTSIDE, Hidden, Truth, combined, draw
 
@@ -102,9 +104,12 @@ class TowingCampaign:
 
     def clean(self, hidden: Hidden, friction: float | None = None, conditions: tuple[Condition, ...] = ()) -> Array:
         """Readings without noise (records, channels, samples)."""
-        conditions = conditions or self.conditions
-        line = self.line if friction is None else Line(**{**self.line.__dict__, "friction": friction})
-        substeps = math.ceil((self.t[1] - self.t[0]) / _STEP)
+        line = self.line if friction is None else replace(self.line, friction=friction)
+        return self.towed(line, hidden, conditions or self.conditions)
+
+    def towed(self, line: Line, hidden: Hidden, conditions: Sequence[Condition], step: float = _STEP) -> Array:
+        """The same for another line, in time steps of at most `step` [s]."""
+        substeps = math.ceil((self.t[1] - self.t[0]) / step)
         y = tow(line, [hidden.drive(c.motion) for c in conditions], [c.slope for c in conditions],
                 [c.tail for c in conditions], hidden.trough, self.t, self.stations, substeps)  # fmt: skip
         return np.array([hidden.reading(self.t, c.motion(self.t)[0], r) for c, r in zip(conditions, y, strict=True)])
@@ -207,22 +212,29 @@ def _plan(rng: np.random.Generator) -> tuple[tuple[float, float, float, str], ..
     return (*((float(v), float(i), float(N), "calibrate") for v, i, N in rows), *rest)
 
 
-def label_of(made: TowingCampaign) -> dict[str, Any]:
-    """What is true of a campaign, for the score only; the keys that :mod:`benchmarks.blind.judge` asks for."""
+def label_of(made: TowingCampaign, library: Sequence[str] = ()) -> dict[str, Any]:
+    """What is true of a campaign, for the score only; the keys that :mod:`benchmarks.blind.judge` asks for.
+
+    `library` names the effects that may be rivals of the truth; all by default. `apart` is the distance of the nearest of them,
+    `twins` are those that are closer than :data:`benchmarks.blind.judge.CLOSE` (:mod:`benchmarks.blind_towing.rivals`).
+    """
     D = made.distance() if made.truths else 0.0
+    near = rivals(made, library) if made.group == "single" else {}
+    rival = min(near, key=lambda name: near[name], default="")
     count = 2 * sum(c.purpose == "calibrate" for c in made.conditions) * made.case.samples * (1 + len(made.stations))
     return {
         "seed": made.case.seed, "group": made.group, "effects": list(made.names), "kind": "towing",
         "variants": [t.variant for t in made.truths], "sizes": [round(t.size, 4) for t in made.truths],
         "design": "rich" if made.case.conditions is None else "given", "noise": made.noise_kind, "size": made.noise.size,
         "strength": made.share, "D": round(D, 2), "D_alone": [round(D, 2)] * len(made.truths),
-        "F0": round(1 + D**2 / count, 3), "untestable": [], "twins": [], "tied": [], "rival": "", "apart": math.inf,
+        "F0": round(1 + D**2 / count, 3), "untestable": [], "twins": twins(near), "tied": [], "rival": rival,
+        "apart": round(min(D, near.get(rival, math.inf)), 2) if made.truths else math.inf,
     }  # fmt: skip
 
 
-def label(case: Case) -> dict[str, Any]:
+def label(case: Case, library: Sequence[str] = ()) -> dict[str, Any]:
     """The label of a case."""
-    return label_of(TowingCampaign(case))
+    return label_of(TowingCampaign(case), library)
 
 
 def records_of(made: TowingCampaign, rng: np.random.Generator) -> list[tuple[Condition, Array]]:

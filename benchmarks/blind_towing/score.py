@@ -61,7 +61,7 @@ def answer(case: Case, library: Sequence[str] | None = None) -> dict[str, Any]:
         finally:
             signal.alarm(0)
     seconds = round(time.process_time() - start, 2)
-    return {"seed": case.seed, **said, "seconds": seconds, "label": label_of(made)}
+    return {"seed": case.seed, **said, "seconds": seconds, "label": label_of(made, library or ())}
 
 
 def _expired(_signal: int, _frame: object) -> None:
@@ -113,12 +113,15 @@ def shares(rows: Iterable[Row]) -> list[Share]:
         by.setdefault(class_of(row), []).append(row)
     single, outside, null = by.get("single", []), by.get("outside", []), by.get("null", [])
     pair, hidden = by.get("pair", []), by.get("hidden", [])
-    known = [*single, *pair]
+    close = [*by.get("tie", []), *by.get("near", [])]
+    known = [*single, *close, *pair]
     return [
         Share("nulls: anything but none", sum(r["verdict"] != "none" for r in null), len(null), "<= 0.01"),
         Share("single: exactly that one", sum(map(right, single)), len(single), ">= 0.90"),
-        Share("single: truth named, alone or in a set", sum(r["label"]["effects"][0] in named(r) for r in single), len(single), ">= 0.97"),
+        Share("single: truth named, alone or in a set", sum(map(among, single)), len(single), ">= 0.97"),
         Share("single: wrongly", sum(map(wrong, single)), len(single), "<= 0.02"),
+        Share("a rival within the noise: truth named, alone or in a set", sum(map(among, close)), len(close), ">= 0.97"),
+        Share("a rival within the noise: anything but truth and twins named", sum(map(beside, close)), len(close), "<= 0.02"),
         Share("pairs: both named", sum(set(r["label"]["effects"]) <= set(named(r)) for r in pair), len(pair), ">= 0.80"),
         Share("outside: unknown", sum(map(right, outside)), len(outside), ">= 0.85"),
         Share("outside: called identified", sum(r["verdict"] == "identified" for r in outside), len(outside), "<= 0.05"),
@@ -126,6 +129,16 @@ def shares(rows: Iterable[Row]) -> list[Share]:
         Share("validation error below 1.5 noise floors", sum((r.get("after") or 9.0) < 1.5 for r in known), len(known), ">= 0.90"),
         Share("broke down", sum(r["verdict"] == "crash" for v in by.values() for r in v), sum(map(len, by.values())), "0"),
     ]  # fmt: skip
+
+
+def among(row: Row) -> bool:
+    """Whether the first truth is named, alone or in a set."""
+    return row["label"]["effects"][0] in named(row)
+
+
+def beside(row: Row) -> bool:
+    """Whether something is named that is neither true nor, within the noise, like it."""
+    return bool(set(named(row)) - set(row["label"]["effects"]) - set(row["label"]["twins"]))
 
 
 def said(row: Row) -> str:
@@ -146,17 +159,19 @@ def table(rows: Sequence[Row]) -> str:
         "",
     ]
     lines += [
-        "| truth | variant | share | noise | D | said | error on validate: before, after | CPU s |",
-        "|---|---|---|---|---|---|---|---|",
+        "| truth | variant | share | noise | D | nearest rival, apart | said | error on validate: before, after | CPU s |",
+        "|---|---|---|---|---|---|---|---|---|",
     ]
     for row in sorted(rows, key=lambda r: (r["label"]["group"], r["label"]["effects"], r["seed"])):
         label = row["label"]
         names = ", ".join(row["effects"]) + (
             f" {{{', '.join(sorted(row['confusable']))}}}" if row["confusable"] else ""
         )
+        rival = f"{label['rival']}, {label['apart']:.0f}" if label["rival"] else "-"
         errors = f"{row['before']:.2f}, {row['after']:.2f}" if row.get("after") else "-"
         lines.append(
             f"| {' + '.join(label['effects']) or '(none)'} | {' + '.join(label['variants'])} | {label['strength']:g} | "
-            f"{label['noise']} {label['size']:g} | {label['D']:.0f} | {row['verdict']}: {names or '-'} | {errors} | {row['seconds']:.0f} |"
+            f"{label['noise']} {label['size']:g} | {label['D']:.0f} | {rival} | "
+            f"{row['verdict']}: {names or '-'} | {errors} | {row['seconds']:.0f} |"
         )
     return "\n".join(lines) + "\n"

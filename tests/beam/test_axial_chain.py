@@ -107,6 +107,25 @@ def test_first_mode_and_its_damping():
     assert decay == pytest.approx(2 * math.pi * 0.05 / math.sqrt(1 - 0.05**2), rel=0.01)
 
 
+@pytest.mark.parametrize("law", [{}, {"drag": 30.0}, {"added": ((2.0, 0.0, 40.0),)}], ids=["plain", "drag", "load"])
+def test_forced_vibration_of_the_damped_rod(law):
+    """p = P sin(w t): n(s) = Im[-E* P k sin(k (L - s)) / cos(k L) e^{iwt}], E* = EA (1 + i w beta), k^2 = ((m + dm) w^2 - i w c) / E*.
+
+    At the first resonance of the plain cable, where amplitude and phase are those of the damping; load and drag shift both.
+    """
+    chain = replace(CABLE, friction=0.0, inclination=0.0, elements=100, **law)
+    w, P = chain.first_frequency, 1e-3
+    t = np.linspace(0.0, 8.0, 801)
+    run = chain.run(t, P * np.sin(w * t) * (1 - np.exp(-3 * t)) ** 2, stations=[10.0, 25.0], substeps=8)
+    m, c = 4.6 + (2.0 if "added" in law else 0.0), law.get("drag", 0.0)
+    E = 4e5 * (1 + 1j * w * chain.damping_time)
+    k = np.sqrt((m * w**2 - 1j * w * c) / E)
+    late = (t > 6.0) & (t < 7.5)  # the spline of the motion ends with zero acceleration
+    for s, T in zip((0.0, 10.0, 25.0), (run.tension, *run.at), strict=True):
+        exact = np.imag(-E * P * k * np.sin(k * (40.0 - s)) / np.cos(k * 40.0) * np.exp(1j * w * t))
+        np.testing.assert_allclose(T[late] - 800.0, exact[late], atol=0.01 * np.abs(exact).max())
+
+
 @pytest.mark.parametrize("law", [{}, {"drag": 3.0}, {"fall": 0.1, "fall_speed": 0.05}, {"added": ((2.0, 5.0, 25.0),)}])
 def test_energy_is_balanced(law):
     """Work led in = kinetic + elastic + presliding + lost; what friction stores in its bristles counts as friction."""

@@ -2,6 +2,10 @@
 
 The campaigns come from generators that share no code with the models; an identification that gets worse fails here. The full
 scorecards are run by hand: benchmarks/blind.md, benchmarks/blind_towing.md.
+
+The seeds of the bench are consecutive, and one fails: friction of the form of Bouc and Wen (seed 5), beside which
+viscoelasticity is named, too. The seeds of the two towing campaigns and of the tied bench were chosen among a few that were tried;
+they guard what works and are no measure of how often it does.
 """
 
 import numpy as np
@@ -15,11 +19,14 @@ from compare import BenchModel, Campaign, explain
 from effects import find
 
 BENCH_RIVALS = ("interlayer-friction", "plasticity", "viscoelasticity", "stiffening")
-BENCH = {  # truth: seed and changes to its case; the form is drawn
-    "nothing": (3, {"effects": (), "kind": "bending", "noise": "ar"}),
-    "friction": (10, {"effects": ("interlayer-friction",), "kind": "bending", "noise": "ar"}),
-    "relaxation": (6, {"effects": ("viscoelasticity",), "kind": "torsion", "noise": "white"}),
-}
+BENCH_SEEDS = (2, 3, 4, 5)
+BENCH_ERRORS = 1
+"""How many of the seeds may be answered wrongly; 2 to 7 had one error (5), which is among these."""
+BENCH = (  # in turn: truth, kind, noise; the form is drawn
+    ((), "bending", "ar"),
+    (("viscoelasticity",), "torsion", "white"),
+    (("interlayer-friction",), "bending", "ar"),
+)
 TOWING_PLAN = ((0.12, 0.0, 900.0, "calibrate"), (0.5, 8.0, 900.0, "calibrate"))
 TOWING = {  # truth: seed, effects, variants, noise
     "nothing": (31, (), (), "ar"),
@@ -33,16 +40,29 @@ def explained(folder, rivals=BENCH_RIVALS):
     return explain(BenchModel(campaign.section), campaign, library=[find(name) for name in rivals])
 
 
-@pytest.mark.parametrize("name", BENCH)
-def test_bench_campaigns(name, tmp_path):
+def bench_answer(seed, folder):
+    """Whether exactly what is missing is named and the error falls to the noise, and what was said."""
+    truth, kind, noise = BENCH[seed % 3]
+    made = hidden(seed, group="single" if truth else "null", design="rich", size=0.01, strength=0.06, two_kinds=False,
+                  effects=truth, kind=kind, noise=noise)  # fmt: skip
+    found = explained(write(made, folder))
+    as_it_is = found.effects == truth and not found.confusable and (found.verdict == "none") == (not truth)
+    return as_it_is and found.errors["validate"].after < 1.5, (
+        seed,
+        truth,
+        found.verdict,
+        found.effects,
+        found.confusable,
+    )
+
+
+def test_bench_campaigns(tmp_path):
     """Nothing is named where nothing is missing; elsewhere that effect alone, and the error falls to the noise."""
-    seed, changes = BENCH[name]
-    group = "single" if changes["effects"] else "null"
-    made = hidden(seed, group=group, design="rich", size=0.01, strength=0.06, two_kinds=False, **changes)
-    found = explained(write(made, tmp_path))
-    assert found.effects == changes["effects"] and not found.confusable
-    assert (found.verdict == "none") == (name == "nothing")
-    assert found.errors["validate"].after < 1.5
+    answers = [bench_answer(seed, tmp_path / str(seed)) for seed in BENCH_SEEDS]
+    wrong = [said for good, said in answers if not good]
+    assert len(wrong) <= BENCH_ERRORS, wrong
+    assert not any(truth and not set(truth) & set(names) for _, truth, _, names, _ in wrong)
+    assert not any(names and not truth for _, truth, _, names, _ in wrong)
 
 
 @pytest.mark.parametrize("name", TOWING)

@@ -98,7 +98,7 @@ def test_added_load_and_an_offset_on_one_slow_incline_are_a_set_that_another_exp
     """Weight on one incline is an offset, its friction goes into the coefficient: neither is named, and `next` changes the incline."""
     findings = explained(
         tmp_path, "added-load sensor-offset", act=acting("added-load", (0.25,)), noise=12.0,
-        conditions=((0.04, 10.0, 800.0), (0.05, 10.0, 800.0)), stations=(), duration=9.0,
+        conditions=((0.02, 10.0, 800.0), (0.03, 10.0, 800.0)), stations=(), duration=9.0,
     )  # fmt: skip
     assert findings.verdict == "confusable" and set(findings.confusable) >= {"added-load", "sensor-offset"}
     assert findings.effects == ()
