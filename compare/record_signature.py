@@ -99,11 +99,11 @@ def _towing_numbers(fit: ChannelFit, led: LedPath, noise: NoiseCovariance, compa
     columns = towing_columns(led, comparison.model.towing.presliding)
     told = np.column_stack([fit.measured - fit.model, *columns.values()])
     white = dict(zip(("r", *columns), noise.whiten(told, fit.model).T, strict=True))
-    wanted = {
-        "offset": ["1", "sense"], "trend": ["t", "1", "sense"], "sense": ["sense", "1"],
-        "speed": ["speed", "sense", "1"], "reversal": ["reversal", "sense", "1"],
-    }  # fmt: skip
-    found = {name: _gls(white, "r", names) for name, names in wanted.items()}
+    found: dict[str, Number | None] = {}
+    for name in columns:
+        found["offset" if name == "1" else "trend" if name == "t" else name] = _gls(
+            white, "r", [name, *(c for c in columns if c != name)]
+        )
     return {k: v for k, v in found.items() if v is not None and np.isfinite(v).all() and v[1] > 0}
 
 

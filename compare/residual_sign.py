@@ -18,10 +18,10 @@ from compare.record_signature import RecordSignature
 
 Array = NDArray[np.float64]
 CHANCE = 0.05
-_CLEAR, _AGREE = 3.0, 0.8
+CLEAR, _AGREE = 3.0, 0.8
 _LIKELY = 0.15  # chance of a mean beside the scatter between conditions
 _ORDER = (
-    "amplitude", "rate", "axial tension", "temperature", "length", "tail tension", "speed", "inclination", "stroke",
+    "amplitude", "rate", "axial tension", "temperature", "length", "mean tension", "speed", "inclination", "stroke",
 )  # fmt: skip
 WORDS = {"length": "specimen length", "rate": "rate"}
 
@@ -69,7 +69,7 @@ def average(group: Group, dof: int) -> Slope | None:
     lines = fit_line(group.value, group.std, np.ones((len(group.value), 1)), dof)
     if lines is None:
         return None
-    clear = group.value[np.abs(group.value) > _CLEAR * group.std]
+    clear = group.value[np.abs(group.value) > CLEAR * group.std]
     agree = np.mean(np.sign(clear) == np.sign(lines[0].value)) if len(clear) else 1.0
     return lines[0] if agree > _AGREE and lines[0].chance < _LIKELY else replace(lines[0], chance=1.0, by_noise=1.0)
 

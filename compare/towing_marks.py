@@ -12,10 +12,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from compare.comparison import Comparison
-from compare.condition_regression import differ, fit_line, over_conditions
+from compare.condition_regression import Slope, differ, fit_line, over_conditions
 from compare.findings_sentences import uncertain
 from compare.record_signature import RecordSignature, towing_paths
-from compare.residual_sign import CHANCE, Group, Sign, average, beside, grouped, mark_of, tie
+from compare.residual_sign import CHANCE, CLEAR, Group, Sign, average, beside, grouped, mark_of, tie
 from compare.towing_signature import AFTER, travel_ripple
 
 _STEEP = math.radians(10.0)
@@ -70,7 +70,7 @@ def towing_signs(found: Sequence[RecordSignature], comparison: Comparison, dof: 
 
 def _mean(found: Sequence[RecordSignature], name: str, channel: str, dof: int, kind: str) -> Sign | None:
     group = grouped(found, name)
-    slope = None if group is None else average(group, dof)
+    slope = None if group is None else _agreed(group, dof)
     if slope is None:
         return None
     word, unit, up, down, computed = _MEANS[name]
@@ -79,12 +79,22 @@ def _mean(found: Sequence[RecordSignature], name: str, channel: str, dof: int, k
     return Sign(mark_of(f"{word} ({channel})", sentence, slope.value, slope.std, computed, kind), slope.by_noise)
 
 
+def _agreed(group: Group, dof: int) -> Slope | None:
+    """Mean over the conditions, also where it varies by up to its own size, if those clear of the noise agree on its sign."""
+    slope = average(group, dof)
+    clear = group.value[np.abs(group.value) > CLEAR * group.std]
+    if slope is None or not clear.size or (np.sign(clear) != np.sign(slope.value)).any():
+        return slope
+    lines = fit_line(group.value, group.std, np.ones((len(group.value), 1)), dof)
+    return lines[0] if lines is not None and abs(lines[0].value) > lines[0].std else slope
+
+
 def _resistance(group: Group | None, channel: str, dof: int, kind: str) -> list[Sign]:
-    """Force against the motion that the calibrated friction leaves, over tail tension and speed."""
+    """Force against the motion that the calibrated friction leaves, over mean tension and speed."""
     if group is None:
         return []
     signs, by_noise = [], differ(group.value, group.std, dof)
-    conditions = {name: group.conditions[name] for name in ("tail tension", "speed")}
+    conditions = {name: group.conditions[name] for name in ("mean tension", "speed")}
     for s in over_conditions(group.value, group.std, conditions, dof):
         number = f"{uncertain(s.slope.value, s.slope.std, 'N per doubling')}{tie(s)}"
         verb = "rises" if s.slope.value > 0 else "falls"

