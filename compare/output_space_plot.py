@@ -50,7 +50,7 @@ def correction_figure(correction: RodCorrection) -> Figure:
             t, d = thinned(r.time, r.difference / r.floor)
             (drawn[r.channel],) = axes.plot(t, d, color=colours[r.channel], lw=1.1)
         axes.set_ylabel(", ".join(ids), rotation=0, ha="right", va="center", fontsize=8)
-    size = max(2.6, *(1.1 * float(np.abs(r.difference).max()) / r.floor for r in correction.records))
+    size = max(0.05, *(1.2 * float(np.abs(r.difference).max()) / r.floor for r in correction.records))
     panels[0].set_ylim(-size, size)
     panels[-1].set_xlabel("time [s]")
     names = [*(c for c in channels if c in drawn), "noise, ± 2 floors"]
