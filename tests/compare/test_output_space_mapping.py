@@ -1,5 +1,6 @@
 """Output space mapping: theta = argmin |y - c(theta) - d|, d = full - chain; the chain on what the full model says, and its rod."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -133,14 +134,17 @@ def towed(**changes):
 
 
 def test_the_rod_is_the_chain_on_a_straight_trough():
-    """Incline, tail tension, drag, added load, forth and back: within 0.3 % of the friction rms, at the end and inside."""
+    """Incline, tail tension, drag, added load, forth and back: within 0.15 % of the friction rms, at the end and inside.
+
+    That is what elements of 1.5 m and the contact's own compliance leave at breaking away; sliding, both are the same.
+    """
     cable, notes = carried(towed(drag=4.0, added=((0.6, 0.0, 30.0),)))
     chain = cable.tensions([12.0])
     rod = rod_tensions(cable, Section(2e5, 95.0, 95.0), [12.0])
     friction = 0.35 * 5.2 * 9.81 * 30.0
     assert notes == ()
     for a, b in zip(rod, chain, strict=True):
-        assert np.sqrt(np.mean((a - b) ** 2)) < 0.003 * friction
+        assert np.sqrt(np.mean((a - b) ** 2)) < 0.0015 * friction
         assert np.ptp(b) > friction
 
 
@@ -156,3 +160,23 @@ def test_a_section_says_what_was_taken(campaign):
     section = Section.of(towing_model(campaign).section, 4e5)
     assert section.EI == 95.0 and "GA" in section.note and "EI" not in section.note
     assert 'EI = "95 N m^2"' in TOML
+
+
+def test_the_command_writes_the_correction_beside_the_comparison(campaign, tmp_path, capsys):
+    """`compare --full-rod --json`: the key `full_rod`, and the sentence on the screen."""
+    from helicable.main import main
+
+    file = tmp_path / "found.json"
+    assert main(["compare", str(campaign.folder), "--full-rod", "--json", str(file)]) == 0
+    found = json.loads(file.read_text())["full_rod"]
+    assert found["parameters"][0]["name"] == "friction coefficient" and len(found["records"]) == 6
+    assert "Corrected by the full rod" in capsys.readouterr().out
+    assert 0 < max(r["rms_over_floor"] for r in found["records"]) < 1.0  # noise of 1 N
+
+
+def test_the_report_has_the_correction_as_its_last_panel(fine, tmp_path):
+    from helicable.rod_correction import correction_panel
+
+    panel = correction_panel(corrected_by_rod(fine, full=itself), tmp_path)
+    assert panel.title == "Corrected by the full rod" and (tmp_path / "full-rod.png").stat().st_size > 5000
+    assert panel.light.level == "good" and len(panel.tables) == 2
