@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST_ROWS = 40
+_SHOWN = {
+    "temperature": (" [°C]", 1.0, -273.15), "axial tension": (" [N]", 1.0, 0.0), "specimen length": (" [m]", 1.0, 0.0),
+    "tail tension": (" [N]", 1.0, 0.0), "speed": (" [m/s]", 1.0, 0.0), "inclination": (" [°]", 180 / np.pi, 0.0),
+}  # fmt: skip
 
 
 def where_figure(f: Findings) -> Figure:
@@ -74,10 +78,9 @@ def covariates(f: Findings) -> dict[str, np.ndarray]:
     """What varied between the compared records: amplitude, rate and recorded conditions, each (n,), NaN where unknown."""
     fits = f.comparison.fits
     found = dict((_of_the_path(f, "amplitude", amplitude), _of_the_path(f, "mean rate", mean_rate)))
-    shown = {"temperature": (" [°C]", -273.15), "axial tension": (" [N]", 0.0), "specimen length": (" [m]", 0.0)}
     for name in varying([x.experiment for x in fits]):
-        unit, shift = shown.get(name, ("", 0.0))
-        found[name + unit] = np.array([x.experiment.conditions.get(name, np.nan) + shift for x in fits])
+        unit, factor, shift = _SHOWN.get(name, ("", 1.0, 0.0))
+        found[name + unit] = np.array([factor * x.experiment.conditions.get(name, np.nan) + shift for x in fits])
     return {name: v for name, v in found.items() if np.isfinite(v).any() and np.nanmax(v) > 1.05 * np.nanmin(v)}
 
 

@@ -10,47 +10,26 @@ something else fails, and where it is known well. Signatures explain; they do no
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from compare.campaign import Campaign
 from compare.comparison import Comparison
-from compare.condition_regression import ConditionSlope, Slope, average_repeats, differ, fit_line, over_conditions
+from compare.condition_regression import ConditionSlope, differ, over_conditions
 from compare.findings import Mark
 from compare.findings_sentences import uncertain
 from compare.record_signature import RecordSignature, record_signatures
+from compare.residual_sign import CHANCE, WORDS, Group, Sign, average, beside, grouped, mark_of, tie
+from compare.towing_marks import towing_signs
 
 Array = NDArray[np.float64]
-_CHANCE = 0.05
 _KNOWN_EXPONENT = 0.2
 _KNOWN_DRIFT = 0.2  # of the largest drift, from which the absence of another is told
 _A_PHASE = 0.5  # distance of the exponent of the lag over rate from -1
 _CLEAR_LOOP = 4.0  # std
-_CLEAR, _AGREE = 3.0, 0.8
-_LIKELY = 0.15  # chance of a mean beside the scatter between conditions
-_ORDER = ("amplitude", "rate", "axial tension", "temperature", "length")
-_WORDS = {"length": "specimen length", "rate": "rate"}
-
-
-@dataclass(frozen=True)
-class _Group:
-    """One number over the conditions of the bench."""
-
-    value: Array
-    std: Array
-    conditions: Mapping[str, Array]
-
-
-@dataclass(frozen=True)
-class _Sign:
-    """A mark and how likely noise alone makes one; `told` marks are kept whatever it is, if anything fails at all."""
-
-    mark: Mark = field(repr=False)
-    chance: float
-    told: bool = False
 
 
 @dataclass(frozen=True)
@@ -122,22 +101,23 @@ def marks(comparison: Comparison, campaign: Campaign) -> tuple[Mark, ...]:
     ids = {e.id for e in campaign.of_set("calibrate")}
     found = [s for s in record_signatures(comparison) if s.fit.experiment.id in ids]
     kinds = list(dict.fromkeys(s.fit.experiment.kind for s in found))
-    signs: list[_Sign] = []
+    signs: list[Sign] = []
     for kind in kinds:
         own = [s for s in found if s.fit.experiment.kind == kind]
         dof = comparison.noise.of(own[0].fit.experiment, own[0].fit.channel).contrasts
-        signs += _of_kind(own, dof, kind if len(kinds) > 1 else "")
+        label = kind if len(kinds) > 1 else ""
+        signs += towing_signs(own, comparison, dof, label) if kind == "towing" else _of_kind(own, dof, label)
     tried = sum(not s.told for s in signs)
-    sure = [s for s in signs if not s.told and s.chance < _CHANCE / max(tried, 1)]
+    sure = [s for s in signs if not s.told and s.chance < CHANCE / max(tried, 1)]
     if not sure:
         return ()
     sure.sort(key=lambda s: s.chance)
     return tuple(s.mark for s in [*sure, *(s for s in signs if s.told)])
 
 
-def _of_kind(found: Sequence[RecordSignature], dof: int, kind: str) -> list[_Sign]:
+def _of_kind(found: Sequence[RecordSignature], dof: int, kind: str) -> list[Sign]:
     loads = [s for s in found if "stiffness" in s.numbers]
-    signs = _drift(_grouped(loads, "stiffness"), dof, kind) if loads else []
+    signs = _drift(grouped(loads, "stiffness"), dof, kind) if loads else []
     means = {name: _mean(found, name, dof, kind) for name in _MEANS}
     if means["loop"] is not None:  # which says the same of closed paths
         del means["direction"]
@@ -153,92 +133,49 @@ def _of_kind(found: Sequence[RecordSignature], dof: int, kind: str) -> list[_Sig
     return signs
 
 
-def _grouped(found: Sequence[RecordSignature], name: str) -> _Group | None:
-    """A number averaged over repeats, with the conditions of each group."""
-    own = [s for s in found if name in s.numbers]
-    if not own:
-        return None
-    groups, value, std = average_repeats([s.group for s in own], [s.numbers[name] for s in own])
-    members = [[s for s in own if s.group == g] for g in groups]
-    conditions = {
-        c: np.array([float(np.mean([s.conditions.get(c, np.nan) for s in member])) for member in members])
-        for c in _ORDER
-    }
-    return _Group(value, std, conditions)
-
-
-def _mark(name: str, sentence: str, value: float, std: float, computed: str, kind: str) -> Mark:
-    if kind:
-        name, sentence = f"{name} ({kind})", f"{kind}: {sentence}"
-    return Mark(name, sentence, value, std, computed)
-
-
-def _drift(group: _Group | None, dof: int, kind: str) -> list[_Sign]:
+def _drift(group: Group | None, dof: int, kind: str) -> list[Sign]:
     """Apparent stiffness over every condition that varies, in percent per doubling or per 10 K."""
     if group is None:
         return []
     slopes = over_conditions(group.value, group.std, group.conditions, dof)
     by_noise = differ(group.value, group.std, dof)
-    largest = max((abs(s.slope.value) for s in slopes if s.slope.chance < _CHANCE), default=0.0)
+    largest = max((abs(s.slope.value) for s in slopes if s.slope.chance < CHANCE), default=0.0)
     signs = []
     for s in slopes:
         value, std = 100 * s.slope.value, 100 * s.slope.std
         per = "% per 10 K" if s.condition == "temperature" else "% per doubling"
-        number = f"{uncertain(value, std, per)}{_tie(s)}"
-        word = _WORDS.get(s.condition, s.condition)
+        number = f"{uncertain(value, std, per)}{tie(s)}"
+        word = WORDS.get(s.condition, s.condition)
         computed = (
             "slope of the stiffness fitted to each experiment alone, over the common one"
-            f"{_beside(s)}; std widened by the scatter over {len(group.value)} conditions"
+            f"{beside(s)}; std widened by the scatter over {len(group.value)} conditions"
         )
         verb = "rises" if value > 0 else "falls"
         name = f"stiffness over {word}"
         sentence = f"apparent stiffness {verb} with {word}: {number}"
-        chance = by_noise if s.slope.chance < _CHANCE else 1.0
-        signs.append(_Sign(_mark(name, sentence, value, std, computed, kind), chance))
-        if s.slope.chance > _CHANCE and s.slope.std < _KNOWN_DRIFT * largest and not s.tied:
+        chance = by_noise if s.slope.chance < CHANCE else 1.0
+        signs.append(Sign(mark_of(name, sentence, value, std, computed, kind), chance))
+        if s.slope.chance > CHANCE and s.slope.std < _KNOWN_DRIFT * largest and not s.tied:
             sentence = f"apparent stiffness does not depend on {word}: {number}"
-            signs.append(_Sign(_mark(name, sentence, value, std, computed, kind), 1.0, told=True))
+            signs.append(Sign(mark_of(name, sentence, value, std, computed, kind), 1.0, told=True))
     return signs
 
 
-def _tie(s: ConditionSlope) -> str:
-    """The conditions that it cannot be told from."""
-    return "".join(
-        f" (not to be told from {_WORDS.get(name, name)}: they vary together, correlation {r:.2f})"
-        for name, r in s.tied
-    )
-
-
-def _beside(s: ConditionSlope) -> str:
-    words = [_WORDS.get(name, name) for name in s.beside]
-    return f", with {' and '.join(words)} in the same regression" if words else ""
-
-
-def _mean(found: Sequence[RecordSignature], name: str, dof: int, kind: str) -> _Sign | None:
-    group, how = _grouped(found, name), _MEANS[name]
-    slope = None if group is None else _average(group, dof)
+def _mean(found: Sequence[RecordSignature], name: str, dof: int, kind: str) -> Sign | None:
+    group, how = grouped(found, name), _MEANS[name]
+    slope = None if group is None else average(group, dof)
     if slope is None:
         return None
     value, std = how.factor * slope.value, how.factor * slope.std
     words = how.positive if value > 0 else how.negative
     shown = abs(value) if name not in ("loop", "even") else value
-    mark = _mark(how.name, words.format(uncertain(shown, std, how.unit)), value, std, how.computed, kind)
-    return _Sign(mark, slope.by_noise)
+    mark = mark_of(how.name, words.format(uncertain(shown, std, how.unit)), value, std, how.computed, kind)
+    return Sign(mark, slope.by_noise)
 
 
-def _average(group: _Group, dof: int) -> Slope | None:
-    """Mean over the conditions of the bench; chances of 1 where these do not agree on its sign."""
-    lines = fit_line(group.value, group.std, np.ones((len(group.value), 1)), dof)
-    if lines is None:
-        return None
-    clear = group.value[np.abs(group.value) > _CLEAR * group.std]
-    agree = np.mean(np.sign(clear) == np.sign(lines[0].value)) if len(clear) else 1.0
-    return lines[0] if agree > _AGREE and lines[0].chance < _LIKELY else replace(lines[0], chance=1.0, by_noise=1.0)
-
-
-def _loop_exponents(found: Sequence[RecordSignature], dof: int, kind: str) -> list[_Sign]:
+def _loop_exponents(found: Sequence[RecordSignature], dof: int, kind: str) -> list[Sign]:
     """Power of the loop energy in amplitude, rate and tension, where the loops stand clear of the noise."""
-    group = _grouped(found, "loop")
+    group = grouped(found, "loop")
     if group is None:
         return []
     sign = np.sign(np.median(group.value))
@@ -252,26 +189,26 @@ def _loop_exponents(found: Sequence[RecordSignature], dof: int, kind: str) -> li
     for s in over_conditions(energy, std, conditions, dof):
         if s.slope.std > _KNOWN_EXPONENT * (1 if s.condition != "amplitude" else 2):
             continue
-        signs.append(_Sign(_exponent_mark(s, kind), 1.0, told=True))
+        signs.append(Sign(_exponent_mark(s, kind), 1.0, told=True))
     return signs
 
 
 def _exponent_mark(s: ConditionSlope, kind: str) -> Mark:
-    word = _WORDS.get(s.condition, s.condition)
+    word = WORDS.get(s.condition, s.condition)
     number = f"exponent {uncertain(s.slope.value, s.slope.std)}"
-    if s.slope.chance > _CHANCE:
+    if s.slope.chance > CHANCE:
         sentence = f"loop energy does not depend on {word}: {number}"
     elif s.condition == "amplitude":
         sentence = f"loop energy grows with amplitude: {number} (2 for every linear damping)"
     else:
         sentence = f"loop energy {'grows' if s.slope.value > 0 else 'falls'} with {word}: {number}"
-    computed = f"slope of the logarithm of the loop energy over that of the {word}{_beside(s)}"
-    return _mark(f"loop energy over {word}", sentence + _tie(s), s.slope.value, s.slope.std, computed, kind)
+    computed = f"slope of the logarithm of the loop energy over that of the {word}{beside(s)}"
+    return mark_of(f"loop energy over {word}", sentence + tie(s), s.slope.value, s.slope.std, computed, kind)
 
 
-def _lag_exponent(found: Sequence[RecordSignature], dof: int, kind: str) -> list[_Sign]:
+def _lag_exponent(found: Sequence[RecordSignature], dof: int, kind: str) -> list[Sign]:
     """Whether the lag is a time (exponent 0) or a phase (exponent -1)."""
-    group = _grouped(found, "lag")
+    group = grouped(found, "lag")
     if group is None:
         return []
     sign = np.sign(np.median(group.value))
@@ -284,19 +221,19 @@ def _lag_exponent(found: Sequence[RecordSignature], dof: int, kind: str) -> list
     for s in slopes:
         if s.condition == "rate" and s.slope.std < _KNOWN_EXPONENT:
             value, who = s.slope.value, "lag" if sign > 0 else "lead"
-            number = f"exponent {uncertain(value, s.slope.std)}{_tie(s)}"
+            number = f"exponent {uncertain(value, s.slope.std)}{tie(s)}"
             if abs(value) < max(3 * s.slope.std, 0.1):
                 sentence = f"the {who} of the load is the same time at all rates: {number}"
             elif abs(value + 1) < max(3 * s.slope.std, 0.1):
                 sentence = f"the {who} of the load is the same phase at all rates, not the same time: {number}"
             else:
                 sentence = f"the {who} of the load changes with rate: {number}"
-            computed = f"slope of the logarithm of the {who} [s] over that of the rate{_beside(s)}"
-            return [_Sign(_mark("lag over rate", sentence, value, s.slope.std, computed, kind), 1.0, told=True)]
+            computed = f"slope of the logarithm of the {who} [s] over that of the rate{beside(s)}"
+            return [Sign(mark_of("lag over rate", sentence, value, s.slope.std, computed, kind), 1.0, told=True)]
     return []
 
 
-def _of_channel(found: Sequence[RecordSignature], channel: str, dof: int, kind: str) -> list[_Sign]:
+def _of_channel(found: Sequence[RecordSignature], channel: str, dof: int, kind: str) -> list[Sign]:
     """Offset and trend of a channel in its own unit, and its answer to the path where the model has none."""
     unit = found[0].fit.unit
     said = {
@@ -309,11 +246,11 @@ def _of_channel(found: Sequence[RecordSignature], channel: str, dof: int, kind: 
     }  # fmt: skip
     signs = []
     for name, (words, shown, computed) in said.items():
-        group = _grouped(found, name)
-        slope = None if group is None else _average(group, dof)
+        group = grouped(found, name)
+        slope = None if group is None else average(group, dof)
         if slope is None:
             continue
         sentence = words.format(uncertain(slope.value, slope.std, shown))
-        mark = _mark(f"{name} of {channel}", sentence, slope.value, slope.std, computed, kind)
-        signs.append(_Sign(mark, slope.by_noise))
+        mark = mark_of(f"{name} of {channel}", sentence, slope.value, slope.std, computed, kind)
+        signs.append(Sign(mark, slope.by_noise))
     return signs

@@ -31,6 +31,7 @@ from compare.bench_path import LedPath, bench_paths, load_controlled
 from compare.comparison import ChannelFit, Comparison
 from compare.kinds import KINDS
 from compare.noise_covariance import NoiseCovariance
+from compare.towing_signature import towing_columns, towing_conditions
 
 Array = NDArray[np.float64]
 Number = tuple[float, float]
@@ -46,7 +47,8 @@ class RecordSignature:
     """Numbers (value, std) of one record by name, and the conditions it was taken under.
 
     `numbers` may hold ``stiffness``, ``offset``, ``trend``, ``lag``, ``direction``, ``history``, ``even``, ``odd``,
-    ``curvature``, ``loop`` and, for the other load, ``cross``. `conditions` holds ``amplitude`` (largest path per length), ``rate``
+    ``curvature``, ``loop`` and, for the other load, ``cross``; of a towing record ``offset``, ``trend``, ``sense``, ``speed`` and
+    ``reversal`` (:mod:`compare.towing_signature`). `conditions` holds ``amplitude`` (largest path per length), ``rate``
     (frequency of loading: mean rate over four amplitudes [1/s]), ``axial tension`` [N], ``temperature`` [K], ``length`` [m].
     """
 
@@ -62,17 +64,17 @@ class RecordSignature:
 
 def record_signatures(comparison: Comparison, set_name: str = "calibrate") -> list[RecordSignature]:
     """Of every compared channel of a set; channels without a signal in the model show only ``offset`` and ``cross``."""
-    fits = [
-        f
-        for f in comparison.fits
-        if f.experiment.set == set_name and len(f.measured) >= _FEWEST and f.experiment.kind != "towing"
-    ]
+    fits = [f for f in comparison.fits if f.experiment.set == set_name and len(f.measured) >= _FEWEST]
     experiments = list({f.experiment.id: f.experiment for f in fits}.values())
     paths = bench_paths(experiments, comparison.model.linear)
     found = []
     for fit in fits:
         led, noise = paths[fit.experiment.id], comparison.noise.of(fit.experiment, fit.channel)
         if not np.ptp(led.path.strain[led.lead :]) > 0:
+            continue
+        if fit.experiment.kind == "towing":
+            numbers = _towing_numbers(fit, led, noise, comparison)
+            found.append(RecordSignature(fit, numbers, towing_conditions(fit, led)))
             continue
         kind = KINDS[fit.experiment.kind]
         main = fit.channel == kind.load or fit.channel in kind.paths
@@ -81,6 +83,28 @@ def record_signatures(comparison: Comparison, set_name: str = "calibrate") -> li
         numbers = _main_numbers(fit, led, noise) if main else _cross_numbers(fit, led, noise)
         found.append(RecordSignature(fit, numbers, _conditions(fit, led)))
     return found
+
+
+def towing_paths(
+    comparison: Comparison, fits: Sequence[ChannelFit]
+) -> list[tuple[ChannelFit, LedPath, NoiseCovariance]]:
+    """Towing records with the told path and the noise of each."""
+    experiments = list({f.experiment.id: f.experiment for f in fits}.values())
+    paths = bench_paths(experiments, comparison.model.linear)
+    return [(f, paths[f.experiment.id], comparison.noise.of(f.experiment, f.channel)) for f in fits]
+
+
+def _towing_numbers(fit: ChannelFit, led: LedPath, noise: NoiseCovariance, comparison: Comparison) -> dict[str, Number]:
+    assert comparison.model.towing is not None
+    columns = towing_columns(led, comparison.model.towing.presliding)
+    told = np.column_stack([fit.measured - fit.model, *columns.values()])
+    white = dict(zip(("r", *columns), noise.whiten(told, fit.model).T, strict=True))
+    found: dict[str, Number | None] = {}
+    for name in columns:
+        found["offset" if name == "1" else "trend" if name == "t" else name] = _gls(
+            white, "r", [name, *(c for c in columns if c != name)]
+        )
+    return {k: v for k, v in found.items() if v is not None and np.isfinite(v).all() and v[1] > 0}
 
 
 def _conditions(fit: ChannelFit, led: LedPath) -> dict[str, float]:

@@ -1,12 +1,13 @@
 r"""Picture of one record: measurement and models, and what the residual says before and after effects are added.
 
-Four panels: load over path; residual over time with the band of the noise; histogram and autocorrelation of the whitened
-residual K r, K^T K = C^-1, which is white with variance one if the model is true. Bands of +- 2 and +- 2 / sqrt(n) hold
-95 % of it. matplotlib is imported when a picture is asked for.
+Four panels: load over path; residual over time with the band of the noise and, in towing, the phases of the motion; histogram
+and autocorrelation of the whitened residual K r, K^T K = C^-1, which is white with variance one if the model is true. Bands
+of +- 2 and +- 2 / sqrt(n) hold 95 % of it. matplotlib is imported when a picture is asked for.
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 _MOST_LAGS = 40
+_AT_REST = 0.03
 
 
 def whitened(fit: ChannelFit, comparison: Comparison) -> Array:
@@ -117,6 +119,42 @@ def _draw_residual(axes: Axes, models: list[Any]) -> None:
     axes.set_xlabel("sample" if time is None else "time [s]")
     axes.set_ylabel(f"measured - model [{scale[1]}]")
     axes.set_title("residual", fontsize=8, color=INK)
+    if fit.experiment.kind == "towing" and time is not None:
+        _draw_phases(axes, time, path_of(fit), fit.experiment.record.prescribed == "speed")
+
+
+def _draw_phases(axes: Axes, time: Array, path: Array, is_speed: bool) -> None:
+    """Above the curves what the drive does: pulled, let down; nothing where it rests."""
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.12 * (high - low))
+    for begin, end, sense in phases(path if is_speed else np.gradient(path, time)):
+        span = float(time[begin]), float(time[end])
+        axes.axvspan(*span, ymin=0.93, color=SKY if sense > 0 else GREY, alpha=0.35, lw=0)
+        if span[1] - span[0] > 0.12 * (time[-1] - time[0]):
+            word = "pulled" if sense > 0 else "let down"
+            axes.text(
+                sum(span) / 2,
+                0.963,
+                word,
+                transform=axes.get_xaxis_transform(),
+                ha="center",
+                va="center",
+                fontsize=6.5,
+                color=INK,
+            )
+
+
+def phases(speed: Array) -> list[tuple[int, int, int]]:
+    """First and last sample of every phase of motion, and its sense; rests (below 3 % of the largest speed) are left out.
+
+    Examples
+    --------
+    >>> phases(np.array([0.0, 1.0, 1.0, 0.0, -0.5, -0.5]))
+    [(1, 2, 1), (4, 5, -1)]
+    """
+    sense = np.where(np.abs(speed) > _AT_REST * max(float(np.abs(speed).max()), 1e-300), np.sign(speed), 0.0)
+    cuts = [0, *(np.flatnonzero(np.diff(sense)) + 1).tolist(), len(sense)]
+    return [(a, b - 1, int(sense[a])) for a, b in pairwise(cuts) if sense[a] != 0]
 
 
 def _draw_histogram(axes: Axes, models: list[Any]) -> None:

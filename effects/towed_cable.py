@@ -62,14 +62,20 @@ class TowedCable:
 
     def tensions(self, stations: Sequence[float] = ()) -> list[Array]:
         """Tension [N] at the towed end behind the bend, and at every station: (n,) each."""
+        t, motion, steps = self.led()
+        run = self.chain.led(t, motion, steps, stations, tally=False)
+        return [self.behind_the_bend(run.tension, motion, steps), *run.at]
+
+    def led(self) -> tuple[Array, Array, int]:
+        """Instants (m,), position, speed and acceleration (m, 3) behind all drives, and the steps between two samples."""
         steps = self.chain.substeps(self.time, self.shortest)
         t, motion = led_motion(self.time, self.position, steps)
         for drive in self.drives:
             motion = drive(t, motion)
-        run = self.chain.led(t, motion, steps, stations, tally=False)
-        return [self._behind_the_bend(run.tension, motion, steps), *run.at]
+        return t, motion, steps
 
-    def _behind_the_bend(self, tension: Array, motion: Array, steps: int) -> Array:
+    def behind_the_bend(self, tension: Array, motion: Array, steps: int) -> Array:
+        """What is read (n,) of the tension before the bend, with the motion of :meth:`led`."""
         if self.bend == 0:
             return tension
         d = self.chain.presliding

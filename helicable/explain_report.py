@@ -5,13 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from compare.findings import Findings
 from compare.findings_plot import plot_findings
 from compare.findings_sentences import first_screen, listed, named, uncalibrated
 from helicable.explain_panels import Panel, panels, sealed_sentence
 from helicable.report import write_page
+from helicable.rod_correction import correction_panel
 from helicable.traffic_light import Light, verdict_light
+
+if TYPE_CHECKING:
+    from compare.output_space_mapping import RodCorrection
 
 _PANEL_OF_SENTENCE = (3, 4, 4, 6, 7)
 
@@ -40,8 +45,10 @@ class ExplainPage:
     sealed: str
 
 
-def explain_page(findings: Findings, pictures: dict[str, Path], notes: Sequence[str] = ()) -> ExplainPage:
-    """The content of the page."""
+def explain_page(
+    findings: Findings, pictures: dict[str, Path], notes: Sequence[str] = (), more: Sequence[Panel] = ()
+) -> ExplainPage:
+    """The content of the page; `more` panels follow the seven."""
     made = panels(findings, pictures)
     lights = (made[2].light, made[3].light, _rivals_light(findings), made[5].light, made[6].light)
     lines = tuple(
@@ -55,13 +62,15 @@ def explain_page(findings: Findings, pictures: dict[str, Path], notes: Sequence[
         light=verdict_light(findings),
         uncalibrated=uncalibrated(findings),
         lines=lines,
-        panels=made,
+        panels=(*made, *more),
         notes=tuple(dict.fromkeys((*notes, *findings.notes))),
         sealed=sealed_sentence(findings),
     )
 
 
-def write_report(findings: Findings, folder: Path, notes: Sequence[str] = ()) -> Path:
+def write_report(
+    findings: Findings, folder: Path, notes: Sequence[str] = (), correction: RodCorrection | None = None
+) -> Path:
     """Write ``report.html`` and the pictures that it shows (which it also carries inside).
 
     Raises
@@ -70,7 +79,8 @@ def write_report(findings: Findings, folder: Path, notes: Sequence[str] = ()) ->
         If the folder cannot be written to.
     """
     pictures = plot_findings(findings, folder)
-    return write_page("explain.html", folder / "report.html", page=explain_page(findings, pictures, notes))
+    more = () if correction is None else (correction_panel(correction, folder),)
+    return write_page("explain.html", folder / "report.html", page=explain_page(findings, pictures, notes, more))
 
 
 def _rivals_light(findings: Findings) -> Light:

@@ -9,6 +9,7 @@ from compare.towing_setup import TowingSetup
 from geometry import read_cable
 from geometry.errors import ConvergenceError, SpecError
 from helicable.options import CampaignArgument, JsonOption, OutOption
+from helicable.rod_correction import FullRod, rod_correction, show_correction
 from helicable.screen import folder, progress, say, sheet, table, write_json
 from homogenize import homogenize_cable
 
@@ -19,6 +20,7 @@ def compare(
     campaign: CampaignArgument,
     json: JsonOption = None,
     out: OutOption = None,
+    full_rod: FullRod = False,
 ) -> None:
     """Compare measurements with the linear cable model, after calibrating its stiffness.
 
@@ -38,7 +40,12 @@ def compare(
     table("Calibrated model against measurement (SI units)", columns, rows, right=(4, 5, 6, 7))
     calibrated = [(k, _short(v["value"]), _short(v["std"]), v["unit"]) for k, v in record["calibrated"].items()]
     table("Calibrated stiffness", ("", "value", "std", "unit"), calibrated, right=(1, 2))
-    sheet("Notes", [("-", note) for note in comparison.notes])
+    correction, said = rod_correction(comparison) if full_rod else (None, ())
+    record["notes"] = [*said, *record["notes"]]
+    sheet("Notes", [("-", note) for note in (*said, *comparison.notes)])
+    if correction is not None:
+        show_correction(correction)
+        record["full_rod"] = correction.record()
     write_json(json, record)
     if out is not None:
         pictures = plot_comparison(comparison, folder(out))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -14,7 +14,11 @@ from geometry.errors import InputError
 from helicable.bench_campaign import bench_model, read_bench_campaign
 from helicable.explain_screen import show_findings
 from helicable.options import CampaignArgument, JsonOption, OutOption
+from helicable.rod_correction import FullRod, rod_correction, show_correction
 from helicable.screen import folder, progress, sheet, write_json
+
+if TYPE_CHECKING:
+    from compare.output_space_mapping import RodCorrection
 
 OpenSealed = Annotated[
     bool,
@@ -33,6 +37,7 @@ def explain(
     out: OutOption = None,
     open_sealed: OpenSealed = False,
     effects: Names = None,
+    full_rod: FullRod = False,
 ) -> None:
     """Find the physics that the linear model misses, and prove it on data that it did not fit.
 
@@ -48,6 +53,8 @@ def explain(
     with progress("explaining") as tell:
         kept = None if out is None else folder(out) / FILE
         findings = explain_campaign(model, read, progress=tell, library=library, store=kept)
+    correction, said = rod_correction(findings.after) if full_rod else (None, ())
+    notes = (*notes, *said)
     if open_sealed:
         if read.of_set("sealed"):
             with progress("opening the sealed experiments"):
@@ -55,7 +62,9 @@ def explain(
         else:
             notes = (*notes, "--open-sealed: the campaign has no sealed experiments.")
     show_findings(findings, notes)
-    write_findings(findings, json, out, notes)
+    if correction is not None:
+        show_correction(correction)
+    write_findings(findings, json, out, notes, correction)
 
 
 def chosen_effects(names: str) -> tuple[Effect, ...]:
@@ -72,10 +81,18 @@ def chosen_effects(names: str) -> tuple[Effect, ...]:
     return tuple(find(name) for name in dict.fromkeys(wanted))
 
 
-def write_findings(findings: Findings, json: Path | None, out: Path | None, notes: tuple[str, ...] = ()) -> None:
+def write_findings(
+    findings: Findings,
+    json: Path | None,
+    out: Path | None,
+    notes: tuple[str, ...] = (),
+    correction: RodCorrection | None = None,
+) -> None:
     """JSON, and with `out` the page, its pictures and the same JSON."""
     record = findings.record()
     record["notes"] = [*notes, *record["notes"]]
+    if correction is not None:
+        record["full_rod"] = correction.record()
     write_json(json, record)
     if out is None:
         return
@@ -83,6 +100,6 @@ def write_findings(findings: Findings, json: Path | None, out: Path | None, note
 
     folder(out)
     with progress("drawing the report"):
-        page = write_report(findings, out, notes)
+        page = write_report(findings, out, notes, correction)
     write_json(out / "explain.json", record)
     sheet("", [("Report", str(page)), ("JSON", str(out / "explain.json"))])
