@@ -1,6 +1,7 @@
 """The import order is the path of the data; the heavy libraries stay behind their doors."""
 
 import ast
+import functools
 import pathlib
 import subprocess
 import sys
@@ -30,6 +31,7 @@ def test_one_file_imports_each_heavy_library(library):
     assert len(doors) == 1 if library != "tomllib" else len(doors) <= 4, doors
 
 
+@functools.cache
 def imported(path):
     names = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
