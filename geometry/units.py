@@ -20,6 +20,18 @@ def _registry() -> pint.UnitRegistry:
     return registry
 
 
+@lru_cache(maxsize=4096)
+def _converted(text: str, unit: str) -> float:
+    """Magnitude in `unit`; the same text is parsed once (2 ms), errors of pint are passed on."""
+    return float(_registry().Quantity(text).to(unit).magnitude)
+
+
+@lru_cache(maxsize=512)
+def _base(unit: str) -> object:
+    """Base units of `unit`."""
+    return _registry().Quantity(1.0, unit).to_base_units().units
+
+
 def read_quantity(text: object, unit: str, where: str) -> float:
     """SI value of a quantity that a user wrote with its unit.
 
@@ -56,8 +68,7 @@ def read_quantity(text: object, unit: str, where: str) -> float:
             f'{where}: the number {text} has no unit; write it as text with its unit, such as "{text} {unit}".'
         )
     try:
-        value = _registry().Quantity(str(text).strip())
-        converted = float(value.to(unit if unit != "1" else "dimensionless").magnitude)
+        converted = _converted(str(text).strip(), unit if unit != "1" else "dimensionless")
     except pint.DimensionalityError as error:
         raise SpecError(f'{where}: "{text}" cannot be read in {unit}, because {_dimension_sentence(error)}.') from None
     except Exception:  # pint raises many kinds (tokenizer, undefined unit, assertion) for text that is no quantity
@@ -135,13 +146,12 @@ def si_unit(unit: str, where: str) -> str:
     >>> si_unit("kN", "column 2"), si_unit("degC", "column 3"), si_unit("rpm", "column 4"), si_unit("Hz", "column 5")
     ('N', 'K', 'rad/s', '1/s')
     """
-    registry = _registry()
     try:
-        base = registry.Quantity(1.0, "dimensionless" if unit.strip() in {"", "-", "1"} else unit).to_base_units().units
+        base = _base("dimensionless" if unit.strip() in {"", "-", "1"} else unit)
     except Exception:  # see read_quantity
         raise SpecError(f"{where}: the unit [{unit}] is not known.") from None
     for name in _NAMED_SI:
-        if registry.Quantity(1.0, "dimensionless" if name == "1" else name).to_base_units().units == base:
+        if _base("dimensionless" if name == "1" else name) == base:
             return name
     return f"{base:~C}"
 
