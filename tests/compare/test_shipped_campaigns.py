@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.blind_towing.exudyn_line import installed, tow_exudyn
+from benchmarks.blind_towing.exudyn_line import installed
 from benchmarks.hidden_effect_towing import DURATION, SAMPLES, SITES
 from benchmarks.shipped_campaigns import TORSION, make_torsion, truth_json, truth_page, truths
 from compare import Campaign
@@ -22,7 +22,7 @@ def test_truth_is_the_one_whose_hash_was_stated():
     digest = hashlib.sha256(text.encode()).hexdigest()
     readmes = [PARENT / name / "README.md" for name in truths()]
     stated = [r.read_text(encoding="utf-8") for r in readmes if r.is_file()]
-    assert len(stated) == 5 and all(digest in text for text in stated)
+    assert len(stated) == 6 and all(digest in text for text in stated)
 
 
 def test_four_have_a_hidden_effect_and_every_folder_has_a_truth():
@@ -58,8 +58,7 @@ def test_towing_runs_are_those_of_the_simulator(site):
     """The first eighth of the fastest run to calibrate, made again: both repeats lie round it within the noise."""
     t = np.linspace(0.0, DURATION, SAMPLES)[: SAMPLES // 8]
     condition = site.conditions()[2]
-    drive = site.ripple(condition.motion) if site.ripple else condition.motion
-    made = tow_exudyn(site.line, drive, condition.slope, condition.tail, site.extra, t, (site.station,))
+    made = site.clean(condition, t)
     swing = np.ptp(made, axis=1)[:, None]
     for name in ("w05.csv", "w06.csv"):
         shipped = np.loadtxt(PARENT / site.name / name, delimiter=",", skiprows=1)[: len(t)]
