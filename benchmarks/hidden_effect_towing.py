@@ -126,13 +126,13 @@ SITES = (
         _plan(1100.0, 9.0), Noise("ar", 0.012, GAIN, OFFSET), 20230303, (), "nothing is missing",
     ),
     Site(
-        "face-1", Line(24.0, 2.4e5, 4.05, 0.11, 0.1, 3e-4), 0.14, 10.0, Extra(fall=0.035, fall_speed=0.15), None,
+        "face-1", Line(16.0, 1.6e5, 4.05, 0.09, 0.1, 3e-4), 0.12, 7.0, Extra(fall=0.013, fall_speed=0.15), None,
         (
             (0.08, 0.0, 900.0, "calibrate"), (0.25, 6.0, 2000.0, "calibrate"), (0.50, 0.0, 2000.0, "calibrate"),
-            (0.12, 6.0, 900.0, "calibrate"), (0.40, 3.0, 1400.0, "validate"), (0.65, 9.0, 1400.0, "sealed"),
+            (0.12, 6.0, 900.0, "calibrate"), (0.40, 3.0, 1400.0, "validate"), (0.60, 8.0, 1400.0, "sealed"),
         ),
         Noise("ar", 0.01, GAIN, OFFSET), 20230304, ("trough-friction-stribeck",),
-        "the friction coefficient falls with the sliding speed v: 0.11 + 0.035 / (1 + (v / 0.15 m/s)^2)",
+        "the friction coefficient falls with the sliding speed v: 0.09 + 0.013 / (1 + (v / 0.15 m/s)^2)",
         Bend(0.25),
     ),
 )  # fmt: skip
@@ -151,9 +151,9 @@ with no code of the model that explains.
 BEND_README = """# Towing runs at the face, over a bend
 
 **Synthetic.** The cable of [{lab}](../{lab}/README.md) (4.05 kg/m; it lies in waves, so that it stretches far more easily than a
-straight one) is towed to and fro along a trough. Its towed end is drawn over a bend of radius **{radius:g} m**, half a turn; the tension
-is read behind the bend, and in the trough {station:g} m from its begin. Six conditions at three tail tensions, each done twice: four to calibrate,
-one to validate, one sealed (faster and steeper than the others).
+straight one) is towed to and fro along a trough. Its towed end is drawn over a bend of radius **{radius:g} m**, half a turn; the
+tension is read behind the bend, and in the trough {station:g} m from its begin. Six conditions at three tail tensions, each done
+twice: four to calibrate, one to validate, one sealed (faster and steeper than the others).
 
 Whether an effect beyond an elastic cable with Coulomb friction is hidden in the trough stands in
 [../truth.md](../truth.md), outside this folder. The line is made in Exudyn and the bend of layers that slip point by point, by
@@ -218,8 +218,8 @@ def truth_section(site: Site) -> str:
     head = f"Missing in the base model: {what}, and nothing else: {site.words}." if what else "Nothing is missing."
     if site.bend:
         head = (
-            f"Missing in the base model: what the layers of [{LAB}]({LAB}/README.md) lose at a bend of radius {site.bend.radius:g} m, which is "
-            f"carried from there and is no effect of towing; beside it {what}, and nothing else: {site.words}."
+            f"Missing in the base model: what the layers of [{LAB}]({LAB}/README.md) lose at a bend of radius "
+            f"{site.bend.radius:g} m, which is carried from there and is no effect of towing; beside it {what}, and nothing else: {site.words}."
         )
     friction = f"True friction coefficient {site.line.friction:g}, nominal {site.nominal_friction:g}."
     return f"## {site.name}\n\n{head}\n{friction} {noise_words(site.noise)}\n"

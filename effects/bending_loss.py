@@ -188,9 +188,7 @@ class BendingLoss:
         sense = np.zeros(len(position))
         for i, share in ((math.floor(x), math.floor(x) + 1 - x), (math.floor(x) + 1, x - math.floor(x))):
             d, w = self._keep(("stops", i, octave), lambda i=i: self.stops(2.0 ** (i / 4), 2.0**octave))
-            for one, part in zip(d, w, strict=True):
-                if part * share > 0:
-                    sense += share * part * stop(np.ascontiguousarray(position), one, 0.0) / one
+            sense += share * sum_of_stops(np.ascontiguousarray(position), d, w)
         return sense * self._work_along(speed, tension, octave)
 
     def _work_along(self, speed: Array, tension: Array, octave: int) -> Array:
@@ -243,6 +241,19 @@ class _Points:
             work += 0.5 * (self.moment + moment) * (after - self.kappa)
             self.kappa, self.moment = after, moment
         return work
+
+
+@kernel
+def sum_of_stops(p: Array, limit: Array, weight: Array) -> Array:
+    """Sum of weight z/limit (m,) of stops that follow p (m,) from 0."""
+    total = np.zeros(len(p))
+    for k in range(len(limit)):
+        if weight[k] > 0:
+            z = 0.0
+            for i in range(1, len(p)):
+                z = min(max(z + p[i] - p[i - 1], -limit[k]), limit[k])
+                total[i] += weight[k] * z / limit[k]
+    return total
 
 
 @kernel
