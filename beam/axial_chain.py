@@ -26,13 +26,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from beam.compiled import kernel
+from beam.compiled import embedded, kernel
 from geometry.errors import ConvergenceError, InputError
 
 Array = NDArray[np.float64]
 GRAVITY = 9.81
 STEPS_A_PERIOD = 48
 _STEPS_A_RIPPLE = 12
+TOLERANCE = 1e-7  # of the friction limit: the residual at which a step is settled
 
 
 @dataclass(frozen=True)
@@ -162,14 +163,19 @@ class AxialChain:
         step = min(2 * math.pi / self.first_frequency / STEPS_A_PERIOD, shortest / _STEPS_A_RIPPLE)
         return max(1, math.ceil(float(np.median(np.diff(time))) / step))
 
-    def led(self, t: Array, motion: Array, substeps: int, stations: Sequence[float] = ()) -> AxialRun:
-        """The same for position, speed and acceleration (m, 3) at every step, of which every `substeps`-th is read."""
+    def led(
+        self, t: Array, motion: Array, substeps: int, stations: Sequence[float] = (), tally: bool = True
+    ) -> AxialRun:
+        """The same for position, speed and acceleration (m, 3) at every step, of which every `substeps`-th is read.
+
+        The energies are counted where `tally` asks for them, and empty otherwise.
+        """
         h = self.length / self.elements
         outside = [s for s in stations if not 0 <= s <= self.length]
         if outside:
             raise InputError(f"the station {outside[0]:g} m lies outside the cable, which is {self.length:g} m long.")
         M, n = self.nodal_masses(), (len(t) - 1) // substeps + 1
-        out, energies = np.empty((n, self.elements + 1)), np.zeros((n, 6))
+        out, energies = np.empty((n, self.elements + 1)), np.zeros((n if tally else 0, 6))
         stuck = _kernel(
             np.array(t), np.array(motion), substeps, M, self.EA / h, self.damping_time, M * GRAVITY * math.cos(self.inclination),
             np.array([self.friction, self.fall, self.fall_speed, self.fall_power, self.presliding]),
@@ -245,6 +251,12 @@ def _read(s: float, h: float, out: Array) -> Array:
     return (1 - w) * values[:, j] + w * values[:, j + 1]
 
 
+@embedded
+def _exponential(x: float) -> float:
+    """exp(x) by its series for |x| < 1/16, to 1e-12."""
+    return 1 + x * (1 + x * (1 / 2 + x * (1 / 6 + x * (1 / 24 + x * (1 / 120 + x * (1 / 720))))))
+
+
 @kernel
 def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
     t: Array,
@@ -259,105 +271,149 @@ def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
     out: Array,
     energies: Array,
 ) -> int:
+    """Every step begins with the friction of the last one made linear, and the tangent of the last one as it is factorised.
+
+    All but friction is linear, so that after a solve the residual is what friction does beside its linear form. The tangent
+    is factorised again, from the first node on that has changed, where a slope moves by a ten-thousandth of the inertia.
+    """
     mu, fall, fall_speed, power, travel = law[0], law[1], law[2], law[3], law[4]
     n = len(M)
     u, v, a, f = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
     u1, v1, a1, f1 = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
-    diagonal, right, slope, last = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
-    share = np.ones(n)
-    share[0] = 0.5
-    share[n - 1] = 0.5
+    known, right, r, new, tangent = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
+    inverse, link, inertia, begin, moved = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
+    viscous = np.full(n, drag)
+    viscous[0] = 0.5 * drag
+    viscous[n - 1] = 0.5 * drag
     stiff = normal * ((mu + fall) / travel)
+    slope = stiff.copy()
+    close = normal * ((mu + fall) * TOLERANCE)
     row, led, lost_f, lost_d, lost_c, pull = 0, 0.0, 0.0, 0.0, 0.0, 0.0
+    dt, kk, per_fall = 0.0, 0.0, 0.0
+    counted = len(energies) > 0
+    told, excess = np.full(n, -1.0), np.zeros(n)  # where the excess of friction was last worked out in full
+    stale = 1  # the first node whose factors are not those of `slope`
     v[0], a[0] = motion[0, 1], motion[0, 2]
     for i in range(len(t)):
         if i > 0:
-            dt = t[i] - t[i - 1]
-            kk = k * (1.0 + 2.0 * beta / dt)
-            for j in range(1, n):
-                u1[j] = u[j] + dt * v[j] + 0.5 * dt**2 * a[j]
-            u1[0] = motion[i, 0]
+            if abs(t[i] - t[i - 1] - dt) > 1e-9 * dt:  # steps that differ by rounding are the same
+                dt = t[i] - t[i - 1]
+                kk = k * (1.0 + 2.0 * beta / dt)
+                per_fall = 1.0 / (dt * fall_speed)
+                stale = 1
+                for j in range(n):
+                    inertia[j] = 4.0 * M[j] / dt**2 + 2.0 * viscous[j] / dt
+            half = 0.5 * dt**2
+            for j in range(n):
+                u1[j] = u[j] + dt * v[j] + half * a[j]
+                v1[j] = v[j] + dt * a[j]
+            u1[0], v1[0] = motion[i, 0], motion[i, 1]
+            for j in range(n):
+                f1[j] = f[j] + slope[j] * (u1[j] - u[j] - begin[j])
+                known[j] = k * (u1[j] + beta * v1[j])
+            for j in range(1, n - 1):
+                r[j] = M[j] * a[j] + viscous[j] * v1[j] + f1[j] + 2.0 * known[j] - known[j - 1] - known[j + 1]
+            j = n - 1
+            r[j] = M[j] * a[j] + viscous[j] * v1[j] + f1[j] + known[j] - known[j - 1]
             settled = False
             for round_ in range(60):
                 damp = 1.0 if round_ < 20 else 0.5
-                size = 0.0
-                for j in range(n):
-                    du = u1[j] - u[j]
-                    w = du / dt
-                    speed = abs(w)
-                    limit, dlimit = mu, 0.0
-                    if fall > 0.0:
-                        q = (speed / fall_speed) ** power
-                        e = fall * math.exp(-q)
-                        limit = mu + e
-                        dlimit = -e * q * power / (speed + 1e-300) / dt
-                    trial = f[j] + stiff[j] * du
-                    if trial > normal[j] * limit:
-                        f1[j], slope[j] = normal[j] * limit, normal[j] * dlimit
-                    elif trial < -normal[j] * limit:
-                        f1[j], slope[j] = -normal[j] * limit, normal[j] * dlimit
-                    else:
-                        f1[j], slope[j] = trial, stiff[j]
-                for j in range(n):
-                    if j == 0:
-                        v1[0], a1[0] = motion[i, 1], motion[i, 2]
-                    else:
-                        v1[j] = 2.0 / dt * (u1[j] - u[j]) - v[j]
-                        a1[j] = 4.0 / dt**2 * (u1[j] - u[j]) - 4.0 / dt * v[j] - a[j]
-                for j in range(1, n):
-                    r = M[j] * a1[j] + drag * share[j] * v1[j] + f1[j]
-                    r += k * (u1[j] - u1[j - 1] + beta * (v1[j] - v1[j - 1]))
-                    if j < n - 1:
-                        r -= k * (u1[j + 1] - u1[j] + beta * (v1[j + 1] - v1[j]))
-                    right[j] = -r
-                    size = max(size, abs(r))
+                for j in range(stale, n):
                     ends = 2.0 if j < n - 1 else 1.0
-                    diagonal[j] = 4.0 * M[j] / dt**2 + drag * share[j] * 2.0 / dt + ends * kk + slope[j]
-                for j in range(2, n):
-                    c = kk / diagonal[j - 1]
-                    diagonal[j] -= c * kk
-                    right[j] += c * right[j - 1]
-                largest, step = 0.0, 0.0
+                    d = inertia[j] + ends * kk + slope[j]
+                    if j > 1:
+                        d -= link[j - 1] * kk
+                    inverse[j] = 1.0 / d
+                    link[j] = kk * inverse[j]
+                stale = n
+                carried = 0.0
+                for j in range(1, n):
+                    carried = link[j - 1] * carried - r[j]
+                    right[j] = carried * inverse[j]
+                step = 0.0
                 for j in range(n - 1, 0, -1):
-                    step = (right[j] + kk * step) / diagonal[j] if j < n - 1 else right[j] / diagonal[j]
-                    last[j] = damp * step
-                    u1[j] += last[j]
-                    largest = max(largest, abs(step))
-                if largest < 1e-6 * travel + 1e-14 * abs(u1[0]):
+                    step = right[j] + link[j] * step
+                    moved[j] = damp * step
+                for j in range(n):
+                    u1[j] += moved[j]
+                    f1[j] += slope[j] * moved[j]
+                if fall > 0.0:
+                    for j in range(n):
+                        du = u1[j] - u[j]
+                        trial = f[j] + stiff[j] * du
+                        new[j], tangent[j] = trial, stiff[j]
+                        if abs(trial) > normal[j] * mu:
+                            q, rise = abs(du) * per_fall, power
+                            if power == 2.0:
+                                q, rise = q * q, 2.0 * q
+                            elif power != 1.0:
+                                ratio = q
+                                q = ratio**power
+                                rise = power * q / (ratio + 1e-300)
+                            ahead = told[j] - q
+                            if abs(ahead) > 0.0625:
+                                told[j], excess[j], ahead = q, fall * math.exp(-q), 0.0
+                            e = excess[j] * _exponential(ahead)
+                            top = normal[j] * (mu + e)
+                            if abs(trial) > top:
+                                new[j] = math.copysign(top, trial)
+                                tangent[j] = -normal[j] * e * rise * per_fall
+                else:
+                    for j in range(n):
+                        trial = f[j] + stiff[j] * (u1[j] - u[j])
+                        top = normal[j] * mu
+                        held = min(max(trial, -top), top)
+                        new[j] = held
+                        tangent[j] = stiff[j] if held == trial else 0.0
+                balanced = 0
+                r[0], f1[0] = 0.0, new[0]
+                for j in range(n):
+                    r[j] = (1.0 - damp) * r[j] + new[j] - f1[j]
+                    f1[j] = new[j]
+                    balanced += abs(r[j]) <= close[j]
+                for j in range(1, n):
+                    if abs(tangent[j] - slope[j]) > 1e-4 * inertia[j]:
+                        stale = j
+                        break
+                for j in range(stale, n):
+                    slope[j] = tangent[j]
+                if balanced == n:
                     settled = True
                     break
             if not settled:
                 return i
-            for j in range(1, n):  # the last step, carried into all that follows from it
-                moved = last[j]
-                v1[j] += 2.0 / dt * moved
-                a1[j] += 4.0 / dt**2 * moved
-                f1[j] += slope[j] * moved
-            inner = 0.0
-            for j in range(1, n):
-                rate = v1[j] - v1[j - 1]
-                rate_0 = v[j] - v[j - 1]
-                inner += k * beta * 0.5 * (rate + rate_0) * (u1[j] - u1[j - 1] - u[j] + u[j - 1])
-                lost_f += 0.5 * (f[j] + f1[j]) * (u1[j] - u[j])
-                lost_c += drag * share[j] * 0.5 * (v[j] + v1[j]) * (u1[j] - u[j])
-            lost_f += 0.5 * (f[0] + f1[0]) * (u1[0] - u[0])
-            lost_c += drag * share[0] * 0.5 * (v[0] + v1[0]) * (u1[0] - u[0])
-            lost_d += inner
+            for j in range(n):
+                du = u1[j] - u[j]
+                begin[j] = 0.0 if tangent[j] == stiff[j] else du
+                v1[j] = 2.0 / dt * du - v[j]
+                a1[j] = 4.0 / dt**2 * du - 4.0 / dt * v[j] - a[j]
+            v1[0], a1[0] = motion[i, 1], motion[i, 2]
+            if counted:
+                for j in range(1, n):
+                    rate = v1[j] - v1[j - 1] + v[j] - v[j - 1]
+                    lost_d += k * beta * 0.5 * rate * (u1[j] - u1[j - 1] - u[j] + u[j - 1])
+                for j in range(n):
+                    lost_f += 0.5 * (f[j] + f1[j]) * (u1[j] - u[j])
+                    lost_c += viscous[j] * 0.5 * (v[j] + v1[j]) * (u1[j] - u[j])
         else:
             u1[:], v1[:], a1[:], f1[:] = u, v, a, f
-        first = k * (u1[0] - u1[1] + beta * (v1[0] - v1[1]))
-        now = first + M[0] * a1[0] + f1[0] + drag * share[0] * v1[0]
+        now = k * (u1[0] - u1[1] + beta * (v1[0] - v1[1])) + M[0] * a1[0] + f1[0] + viscous[0] * v1[0]
         led += 0.5 * (pull + now) * (u1[0] - u[0])
         pull = now
-        u[:], v[:], a[:], f[:] = u1, v1, a1, f1
+        u, u1 = u1, u
+        v, v1 = v1, v
+        a, a1 = a1, a
+        f, f1 = f1, f
         if i % substeps == 0:
             out[row, 0] = pull
-            kinetic, elastic = 0.5 * M[0] * v[0] ** 2, 0.0
             for j in range(1, n):
                 out[row, j] = k * (u[j - 1] - u[j] + beta * (v[j - 1] - v[j]))
-                kinetic += 0.5 * M[j] * v[j] ** 2
-                elastic += 0.5 * k * (u[j] - u[j - 1]) ** 2
-            energies[row, 0], energies[row, 1], energies[row, 2] = led, kinetic, elastic
-            energies[row, 3], energies[row, 4], energies[row, 5] = lost_f, lost_d, lost_c
+            if counted:
+                kinetic, elastic = 0.5 * M[0] * v[0] ** 2, 0.0
+                for j in range(1, n):
+                    kinetic += 0.5 * M[j] * v[j] ** 2
+                    elastic += 0.5 * k * (u[j] - u[j - 1]) ** 2
+                energies[row, 0], energies[row, 1], energies[row, 2] = led, kinetic, elastic
+                energies[row, 3], energies[row, 4], energies[row, 5] = lost_f, lost_d, lost_c
             row += 1
     return -1

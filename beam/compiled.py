@@ -1,7 +1,8 @@
 """The one door to numba: ``@kernel`` compiles a function of numbers and arrays, and keeps the machine code on disk.
 
 Every kernel is plain Python as well: without numba, or with ``NUMBA_DISABLE_JIT=1``, the same lines run uncompiled and
-give the same numbers, some hundred times slower. Kernels run on one core; parallel work is done over whole runs.
+give the same numbers, some hundred times slower. Kernels run on one core and release the interpreter's lock; parallel work
+is done over whole runs.
 
 numba renews the code on disk when the kernel's own file changes, but a kernel also contains the code of kernels in other
 files. Here it is renewed whenever any file that holds a kernel has changed in this package or in the kernel's own.
@@ -64,7 +65,7 @@ def embedded(function: Function) -> Function:
 def _compiled(function: Function, **options: Any) -> Function:
     if _numba is None:
         return function
-    options = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}} | options
+    options = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}, "nogil": True} | options
     compiled: Any = _numba.njit(**options)(function)
     stored: Any = getattr(getattr(compiled, "_cache", None), "_cache_file", None)
     if hasattr(stored, "_source_stamp"):

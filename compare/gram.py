@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ from compare.bounded_least_squares import solve_bounded
 from effects.effect import ActiveEffect
 
 Array = NDArray[np.float64]
+Shape = tuple[float, ...]
 _LARGEST_SIZE = 1e12  # of a column over the target, squared: where nothing was measured but zeros
 _PRIOR_STRENGTH = 0.3  # prior standard deviation of an effect: its rms over that of the linear load
 
@@ -171,6 +173,14 @@ def energy(S: Array, x: Array) -> Array:
     return np.sum(x * (Sx - 2 * S[..., :-1, -1]), axis=-1) + S[..., -1, -1]
 
 
+def total_cost(grams: Grams) -> Array:
+    """Penalised square residual of all groups together, per shape; S is (m, G, ...) or (G, ...)."""
+    S = grams.S.sum(axis=-3)
+    mean, precision = grams.prior()
+    x = grams.fit(S, (mean, precision))
+    return energy(S, x) + np.sum(precision * (x - mean) ** 2, axis=-1)
+
+
 def positive_flags(block: Block, terms: Sequence[ActiveEffect]) -> NDArray[np.bool_]:
     """Which coefficients of a model may not be negative: strengths whose lower bound is zero."""
     flags = [False] * len(block.base)
@@ -184,6 +194,7 @@ class Scan:
 
     def __init__(self, block: Block, accepted: Sequence[ActiveEffect]) -> None:
         self.block, self.accepted = block, tuple(accepted)
+        self._response: Any = getattr(block.records[0], "response", None)  # of towing records: runs that are kept
         self.scatter = Scatter.of(block)
         self._fixed = [_sample_white(record, self.accepted) for record in block.records]
         self._rest = [
@@ -206,15 +217,18 @@ class Scan:
         """Of the accepted terms alone."""
         return self._with(self.accepted, self._fixed)
 
-    def candidate(self, term: ActiveEffect) -> Grams:
-        """Of the accepted terms and one more, with what repeats share."""
+    def candidate(self, term: ActiveEffect, near: Shape | None = None) -> Grams:
+        """Of the accepted terms and one more, with what repeats share; `near` as in :meth:`cost_matrix`."""
         terms = (*self.accepted, term)
-        return self._with(terms, self._columns(term))
+        return self._with(terms, self._columns(term, near is not None, near))
 
-    def cost_matrix(self, term: ActiveEffect) -> Array:
-        """A (R, P + 3, P + 3) of the accepted terms and one more."""
+    def cost_matrix(self, term: ActiveEffect, rough: bool = False, near: Shape | None = None) -> Array:
+        """A (R, P + 3, P + 3) of the accepted terms and one more.
+
+        Where columns are dear, it is linear in the new term if `rough`, or corrected as it is at its shape `near`.
+        """
         if term.form.stage != "section" or not self._plain:
-            return self._products(self._columns(term))
+            return self._products(self._columns(term, rough or near is not None, near))
         P, k = self._fixed[0][0].shape[1], len(term.form.strength)
         size = P + k + 3
         own, across = np.zeros((len(self._known_products), k, k)), np.zeros((len(self._known_products), k, P + 3))
@@ -241,8 +255,19 @@ class Scan:
         return c[:, None] if c.ndim == 1 else c
 
     def grid(self, term: ActiveEffect, shapes: Sequence[tuple[float, ...]]) -> Grams:
-        """Of one more term at several shapes: S and A of shape (m, ...); X, which no search needs, is left empty."""
-        A = np.stack([self.cost_matrix(replace(term, shape=shape)) for shape in shapes])
+        """Of one more term at several shapes: S and A of shape (m, ...); X, which no search needs, is left empty.
+
+        Where columns are dear, those of a towing record, all shapes are rough but the best: it is corrected until it stays.
+        """
+        terms = [replace(term, shape=shape) for shape in shapes]
+        if not self.dear:
+            return self.of_matrix(term, np.stack([self.cost_matrix(t) for t in terms]))
+        self._response.prepare([(*self.accepted, t) for t in terms])
+        A = np.stack([self.cost_matrix(t, rough=True) for t in terms])
+        corrected: set[int] = set()
+        while (best := int(np.argmin(total_cost(self.of_matrix(term, A))))) not in corrected:
+            A[best] = self.cost_matrix(terms[best])
+            corrected.add(best)
         return self.of_matrix(term, A)
 
     def of_matrix(self, term: ActiveEffect, A: Array) -> Grams:
@@ -252,13 +277,21 @@ class Scan:
         S = self.scatter.measured(A)
         return Grams(S, S[..., :0, :0], A, n, n > 0, positive_flags(block, terms), len(block.base), self.scatter)
 
-    def _columns(self, term: ActiveEffect) -> list[list[Array]]:
+    @property
+    def dear(self) -> bool:
+        """Whether a column takes runs of a model, as those of a towing record."""
+        return self._response is not None
+
+    def _columns(self, term: ActiveEffect, rough: bool = False, near: Shape | None = None) -> list[list[Array]]:
         """Sample-white columns of all terms, per record and reading."""
         terms = (*self.accepted, term)
+        rough &= self.dear
+        if rough:
+            self._response.prepare([terms])
         if term.form.stage in ("fixture", "filter", "drive"):
-            return [_sample_white(record, terms) for record in self.block.records]
+            return [_sample_white(record, terms, None, rough, near) for record in self.block.records]
         if term.form.stage != "section" or not self._plain:
-            own = [_sample_white(record, terms, only=len(self.accepted)) for record in self.block.records]
+            own = [_sample_white(record, terms, len(self.accepted), rough, near) for record in self.block.records]
         else:
             own = [self._section_columns(i, term) for i in range(len(self.block.records))]
         return [
@@ -294,9 +327,16 @@ class Scan:
         return Grams(S, X, A, n, repeated, positive_flags(block, terms), len(block.base), self.scatter)
 
 
-def _sample_white(record: BenchRecord, terms: Sequence[ActiveEffect], only: int | None = None) -> list[Array]:
+def _sample_white(
+    record: BenchRecord,
+    terms: Sequence[ActiveEffect],
+    only: int | None = None,
+    rough: bool = False,
+    near: Shape | None = None,
+) -> list[Array]:
     """Columns of every reading of a record, white but for gain and offset."""
-    return [r.whiten.samples(Z) for r, Z in zip(record.readings, record.columns(terms, only), strict=True)]
+    columns = record.rough_columns(terms, only, near) if rough else record.columns(terms, only)  # type: ignore[attr-defined]
+    return [r.whiten.samples(Z) for r, Z in zip(record.readings, columns, strict=True)]
 
 
 def shared_products(block: Block, V: Sequence[Array]) -> tuple[Array, Array, NDArray[np.bool_]]:

@@ -231,7 +231,7 @@ class Stage:
         terms = [list(t) for t in self.accepted]
         for trial in attempt.trials:
             terms[trial.site.block].append(trial.fit.term)
-        return Stage(self.blocks, polished(self.blocks, terms), self.library)
+        return Stage(self.blocks, polished(self.blocks, terms, leave_weak=True), self.library)
 
     def without(self, name: str) -> Stage:
         """The stage without one of its effects, the others in the shapes that they have."""
@@ -318,22 +318,38 @@ def _worth_its_form(trial: Trial) -> float:
 
 
 def polished(
-    blocks: Sequence[Block], terms: Sequence[Sequence[ActiveEffect]], sweeps: int = 2, alone: bool = False
+    blocks: Sequence[Block],
+    terms: Sequence[Sequence[ActiveEffect]],
+    sweeps: int = 2,
+    alone: bool = False,
+    leave_weak: bool = False,
 ) -> Terms:
     """Shapes of all terms fitted together, one after the other in turn.
 
-    A term that stands alone in its block is left in its shape, which a search has found, unless `alone` says otherwise.
+    A term that stands alone in its block is left in its shape, which a search has found, unless `alone` says otherwise. Where
+    columns are dear, a term is left beside others that stay as they were, and with `leave_weak` all are where the last one
+    makes next to no difference.
     """
     result = []
     for block, own in zip(blocks, terms, strict=True):
         now = list(own)
-        if alone or len(now) > 1:
+        dear = Scan(block, ()).dear
+        if (alone or len(now) > 1) and not (dear and leave_weak and _last_is_weak(block, now)):
+            beside: dict[int, list[tuple[float, ...]]] = {}
             for _ in range(sweeps):
                 for i, term in enumerate(now):
-                    if term.form.shape:
+                    others = [t.shape for k, t in enumerate(now) if k != i]
+                    if term.form.shape and not (dear and beside.get(i) == others):
                         now[i] = _moved(block, now, i)
+                        beside[i] = others
         result.append(tuple(now))
     return tuple(result)
+
+
+def _last_is_weak(block: Block, terms: Sequence[ActiveEffect]) -> bool:
+    """Whether the square residual hardly falls by the last term, in the shape that it has."""
+    with_it, without = (Scan(block, own).base() for own in (terms, terms[:-1]))
+    return float(total_cost(without) - total_cost(with_it)) < _WORTH_A_SEARCH
 
 
 def _moved(block: Block, terms: Sequence[ActiveEffect], i: int) -> ActiveEffect:

@@ -13,9 +13,12 @@ drive) changes Z_0 in the same way. Sensors act on the columns as on the bench. 
 
 from __future__ import annotations
 
+import os
 from collections import OrderedDict
 from collections.abc import Hashable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -34,11 +37,13 @@ from geometry.errors import ConvergenceError, InputError
 
 Array = NDArray[np.float64]
 Terms = tuple[ActiveEffect, ...]
+Shape = tuple[float, ...]
+_Job = tuple[Experiment, float, Terms]
 _SLOPE = 0.02  # step of the friction ratio
 _WORTH_A_RUN = 8.0  # fall of the square residual below which a column is not corrected
 _MOST_ROUNDS = 5
 _CLOSE = 0.3  # square residual by which a linear column may be off the run
-_KEPT = 20_000
+_KEPT = 300_000_000  # bytes of columns, about
 _LOWEST = 0.02  # of the friction ratio
 _FAR = 5.0  # times the largest plausible strength
 
@@ -54,11 +59,16 @@ class TowingRecord:
 
     def columns(self, terms: Sequence[ActiveEffect], only: int | None = None) -> list[Array]:
         """Columns of every reading, base first, then those of each term: (n, P); with `only` just those of one term."""
-        found = self.response.columns(self, tuple(terms))
-        if only is None:
-            return found
-        begin = 1 + sum(len(t.form.strength) for t in terms[:only])
-        return [Z[:, begin : begin + len(terms[only].form.strength)] for Z in found]
+        return _only(self.response.columns(self, tuple(terms)), terms, only)
+
+    def rough_columns(
+        self, terms: Sequence[ActiveEffect], only: int | None = None, near: Shape | None = None
+    ) -> list[Array]:
+        """The same, but linear in the last term: as it acts at a small strength beside the others, which are corrected.
+
+        With `near` the columns are corrected by what corrects them at that shape of the last term.
+        """
+        return _only(self.response.rough_columns(self, tuple(terms), near), terms, only)
 
     def inside(self, terms: Sequence[ActiveEffect]) -> BenchPath:
         """The told path."""
@@ -98,6 +108,12 @@ class TowingResponse:
         self._kept: OrderedDict[Hashable, Any] = OrderedDict()
         self._led: dict[str, Hashable] = {}
         self.runs = 0
+        self._size = 1  # bytes of the columns of the longest record, about
+
+    def hold(self, records: tuple[TowingRecord, ...]) -> None:
+        """Take the records to which columns are fitted."""
+        self.block = records
+        self._size = max(16 * sum(len(reading.y) for reading in r.readings) for r in records)
 
     def base(self, experiment: Experiment) -> tuple[list[Array], list[Array]]:
         """f(1, 0) and its slope over the friction ratio, per channel."""
@@ -106,8 +122,43 @@ class TowingResponse:
 
     def run(self, experiment: Experiment, x: float, terms: Terms) -> list[Array]:
         """Tension of every channel at a friction ratio, with chain terms whose strengths are given."""
-        key = ("run", self._motion(experiment), float(x), *(_key(t) for t in terms))
-        return self._keep(key, lambda: self._run(experiment, x, terms))
+        return self._keep(self._run_key(experiment, x, terms), lambda: self._run(experiment, x, terms))
+
+    def prepare(self, models: Sequence[Terms]) -> None:
+        """Run what the rough columns of all records for several last terms take, on all cores."""
+        jobs: list[_Job] = []
+        for terms in models:
+            if terms and terms[-1].form.stage in TOWED:
+                x, parts = self._working(terms[:-1]).x, _parts(terms)[0]
+                runs = [_with_strengths(parts[:-1], x)] * bool(terms[-1].form.strength) + _probes(parts, x)
+                jobs += [(r.experiment, float(x[0]), run) for r in self.block for run in runs]
+        self._ahead(jobs)
+
+    def _ahead(self, jobs: Sequence[_Job]) -> None:
+        """Run on all cores what is not kept yet; each run is the same wherever and whenever it is done.
+
+        What finds no balance is left to be found out where it is asked for.
+        """
+        missing: dict[Hashable, _Job] = {}
+        for job in jobs:
+            key = self._run_key(*job)
+            if key not in self._kept:
+                missing[key] = job
+        if len(missing) < 2 or (pool := _pool()) is None:
+            return
+        for key, found in zip(missing, pool.map(lambda job: self._tried(*job), missing.values()), strict=True):
+            if found is not None:
+                self.runs += 1
+                self._keep(key, lambda found=found: found)
+
+    def _tried(self, experiment: Experiment, x: float, terms: Terms) -> list[Array] | None:
+        try:
+            return self._tensions(experiment, x, terms)
+        except (ConvergenceError, InputError):
+            return None
+
+    def _run_key(self, experiment: Experiment, x: float, terms: Terms) -> Hashable:
+        return "run", self._motion(experiment), float(x), *(_key(t) for t in terms)
 
     def _motion(self, experiment: Experiment) -> Hashable:
         """What a run depends on beside its terms; the same for repeats that were led alike."""
@@ -122,17 +173,29 @@ class TowingResponse:
 
     def _run(self, experiment: Experiment, x: float, terms: Terms) -> list[Array]:
         self.runs += 1
+        return self._tensions(experiment, x, terms)
+
+    def _tensions(self, experiment: Experiment, x: float, terms: Terms) -> list[Array]:
         cable = with_effects(self.setup.cable(experiment, self.friction * x), terms)
         return list(read_channels(cable, experiment).values())
 
     def columns(self, record: TowingRecord, terms: Terms) -> list[Array]:
         """All columns in the order of `terms`, as the sensors read them."""
         key = ("columns", record.experiment.id, *(_key(t) for t in terms))
-        return self._keep(key, lambda: self._columns(record, terms))
+        return self._keep(key, lambda: self._sensed(record, self._chain(record, terms), terms))
 
-    def _columns(self, record: TowingRecord, terms: Terms) -> list[Array]:
-        chain, sensors = _parts(terms)
-        return self._sensed(record, self._chain(record, chain, sensors), terms)
+    def rough_columns(self, record: TowingRecord, terms: Terms, near: Shape | None = None) -> list[Array]:
+        """The same, linear in the last term, or corrected as at its shape `near`."""
+        key = ("rough", near, record.experiment.id, *(_key(t) for t in terms))
+        return self._keep(key, lambda: self._sensed(record, self._nearly(record, terms, near), terms))
+
+    def _nearly(self, record: TowingRecord, terms: Terms, near: Shape | None) -> list[Array]:
+        rough = self._begin(record, terms)
+        if near is None:
+            return rough
+        anchor = (*terms[:-1], replace(terms[-1], shape=near))
+        exact, begun = self._chain(record, anchor), self._begin(record, anchor)
+        return [z + (b - a) for z, a, b in zip(rough, begun, exact, strict=True)]
 
     def _sensed(self, record: TowingRecord, inner: Sequence[Array], terms: Terms) -> list[Array]:
         time, offset = record.led.path.time, self._offset(record.experiment)
@@ -164,18 +227,24 @@ class TowingResponse:
         f, J = self.base(experiment)
         return [a - b for a, b in zip(f, J, strict=True)]
 
-    def _chain(self, record: TowingRecord, chain: Terms, sensors: Terms) -> list[Array]:
-        """Columns of base and chain terms, (n, 1 + k) per reading."""
-        key = ("chain", record.experiment.id, *(_key(t) for t in chain), "|", *(_key(t) for t in sensors))
-        return self._keep(key, lambda: self._corrected(record, chain, sensors))
+    def _chain(self, record: TowingRecord, terms: Terms) -> list[Array]:
+        """Columns of base and chain terms, (n, 1 + k) per reading, exact where all terms together are fitted."""
+        key = ("chain", record.experiment.id, *(_key(t) for t in terms))
+        return self._keep(key, lambda: self._corrected(record, terms))
 
-    def _corrected(self, record: TowingRecord, chain: Terms, sensors: Terms) -> list[Array]:
-        if not chain:
-            return [J[:, None] for J in self.base(record.experiment)[1]]
-        Z = self._first(record, chain, sensors)
-        for x in self._visited(chain, sensors):
-            Z = self._updated(record, chain, Z, x)
+    def _corrected(self, record: TowingRecord, terms: Terms) -> list[Array]:
+        Z = self._begin(record, terms)
+        for x in self._visited(terms):
+            Z = self._updated(record, _parts(terms)[0], Z, x)
         return Z
+
+    def _begin(self, record: TowingRecord, terms: Terms) -> list[Array]:
+        """The columns before they are corrected: a sensor takes them as they were without it, a chain term adds its own."""
+        if not _parts(terms)[0]:
+            return [J[:, None] for J in self.base(record.experiment)[1]]
+        if terms[-1].form.stage not in TOWED:
+            return self._chain(record, terms[:-1])
+        return self._first(record, terms)
 
     def _updated(self, record: TowingRecord, chain: Terms, Z: Sequence[Array], x: Array) -> list[Array]:
         """Broyden's update of the columns of the last term, or of the base for a drive, by the run at x."""
@@ -186,6 +255,8 @@ class TowingResponse:
         k = len(chain[-1].form.strength)
         own = slice(len(x) - k, len(x)) if k else slice(0, 1)
         size = float(x[own] @ x[own])
+        if size == 0.0:
+            return list(Z)
         updated = []
         for fr, o, old in zip(f, self._offset(record.experiment), Z, strict=True):
             new = old.copy()
@@ -193,38 +264,41 @@ class TowingResponse:
             updated.append(new)
         return updated
 
-    def _first(self, record: TowingRecord, chain: Terms, sensors: Terms) -> list[Array]:
+    def _first(self, record: TowingRecord, terms: Terms) -> list[Array]:
         """Columns with the last term by difference quotients at small strengths, a drive at the friction that it was without."""
-        rest, term = chain[:-1], chain[-1]
-        Z, x = self._chain(record, rest, sensors), self._working(rest, sensors).x
-        if not term.form.strength:
+        rest, chain = terms[:-1], _parts(terms)[0]
+        Z, x = self._chain(record, rest), self._working(rest).x
+        if not terms[-1].form.strength:
             return self._updated(record, chain, Z, x)
-        at = self.run(record.experiment, float(x[0]), _with_strengths(rest, x))
+        at = self.run(record.experiment, float(x[0]), _with_strengths(chain[:-1], x))
         parts: list[list[Array]] = [[z] for z in Z]
-        for k, parameter in enumerate(term.form.strength):
-            probe = np.zeros(len(term.form.strength))
-            probe[k] = _probe(parameter)
+        for k, probe in enumerate(_probes(chain, x)):
             try:
-                f = self.run(record.experiment, float(x[0]), _with_strengths(chain, np.append(x, probe)))
+                f = self.run(record.experiment, float(x[0]), probe)
             except (ConvergenceError, InputError):
                 f = at
             for part, a, b in zip(parts, at, f, strict=True):
-                part.append(((b - a) / probe[k])[:, None])
+                part.append(((b - a) / probe[-1].strength[k])[:, None])
         return [np.hstack(part) for part in parts]
 
-    def _visited(self, chain: Terms, sensors: Terms) -> list[Array]:
+    def _visited(self, terms: Terms) -> list[Array]:
         """The coefficients at which the records are run to correct the columns, none where these explain too little."""
-        key = ("visited", *(_key(t) for t in chain), "|", *(_key(t) for t in sensors))
-        return self._keep(key, lambda: self._visit(chain, sensors))
+        return self._keep(("visited", *(_key(t) for t in terms)), lambda: self._visit(terms))
 
-    def _visit(self, chain: Terms, sensors: Terms) -> list[Array]:
-        Z = [self._first(r, chain, sensors) for r in self.block]
+    def _visit(self, terms: Terms) -> list[Array]:
+        chain = _parts(terms)[0]
+        if not chain:
+            return []
+        self.prepare([terms])
+        Z = [self._begin(r, terms) for r in self.block]
         k, visited = len(chain[-1].form.strength), []
-        found = self._fit(Z, chain, sensors)
-        if self._working(chain[:-1], sensors).square - found.square < _WORTH_A_RUN:
+        found = self._fit(Z, terms)
+        gain = self._working(terms[:-1]).square - found.square
+        if terms[-1] is chain[-1] and gain < _WORTH_A_RUN:
             return []
         while len(visited) < _MOST_ROUNDS and (not k or found.x[-k:].any()):
             visited.append(found.x)
+            self._ahead([(r.experiment, float(found.x[0]), _with_strengths(chain, found.x)) for r in self.block])
             new = [self._updated(r, chain, z, found.x) for r, z in zip(self.block, Z, strict=True)]
             missed = sum(
                 float(np.sum(reading.whiten((a - b) @ found.x[:, None]) ** 2))
@@ -234,16 +308,15 @@ class TowingResponse:
             Z = new
             if missed < _CLOSE:
                 break
-            found = self._fit(Z, chain, sensors)
+            found = self._fit(Z, terms)
         return visited
 
-    def _working(self, chain: Terms, sensors: Terms) -> _Fit:
+    def _working(self, terms: Terms) -> _Fit:
         """Coefficients of base and chain terms at which the columns are fitted to the block."""
-        key = ("working", *(_key(t) for t in chain), "|", *(_key(t) for t in sensors))
-        return self._keep(key, lambda: self._fit([self._chain(r, chain, sensors) for r in self.block], chain, sensors))
+        key = ("working", *(_key(t) for t in terms))
+        return self._keep(key, lambda: self._fit([self._chain(r, terms) for r in self.block], terms))
 
-    def _fit(self, Z: Sequence[Sequence[Array]], chain: Terms, sensors: Terms) -> _Fit:
-        terms = (*chain, *sensors)
+    def _fit(self, Z: Sequence[Sequence[Array]], terms: Terms) -> _Fit:
         P = 1 + sum(len(t.form.strength) for t in terms)
         A, b, yy = np.zeros((P, P)), np.zeros(P), 0.0
         for record, own in zip(self.block, Z, strict=True):
@@ -259,7 +332,8 @@ class TowingResponse:
         solve_bounded(np.ascontiguousarray(unit[None]), np.ascontiguousarray((b * scale)[None]), positive, x)
         full = x[0] * scale
         square = float(yy - 2 * full @ b + full @ A @ full)
-        return _Fit(_sane(full[: P - sum(len(t.form.strength) for t in sensors)], chain), square)
+        in_chain = [True, *(t.form.stage in TOWED for t in terms for _ in t.form.strength)]
+        return _Fit(_sane(full[in_chain], _parts(terms)[0]), square)
 
     def _keep(self, key: Hashable, make: Any) -> Any:
         if key in self._kept:
@@ -267,7 +341,7 @@ class TowingResponse:
             return self._kept[key]
         value = make()
         self._kept[key] = value
-        while len(self._kept) > _KEPT:
+        while len(self._kept) > max(1000, _KEPT // self._size):
             self._kept.popitem(last=False)
         return value
 
@@ -279,7 +353,7 @@ def towing_block(experiments: Sequence[Experiment], model: BenchModel, noise: No
     response = TowingResponse(model.towing, model.stiffness("friction coefficient"))
     paths = bench_paths(experiments, model)
     records = tuple(towing_record(e, paths[e.id], response, noise) for e in experiments)
-    response.block = records
+    response.hold(records)
     return Block("towing", base, records, repeat_groups(experiments))  # type: ignore[arg-type]
 
 
@@ -313,6 +387,30 @@ def _with_strengths(chain: Terms, x: Array) -> Terms:
         found.append(replace(term, strength=tuple(float(v) for v in x[at : at + k])))
         at += k
     return tuple(found)
+
+
+def _only(columns: list[Array], terms: Sequence[ActiveEffect], only: int | None) -> list[Array]:
+    """All columns, or those of one term."""
+    if only is None:
+        return columns
+    begin = 1 + sum(len(t.form.strength) for t in terms[:only])
+    return [Z[:, begin : begin + len(terms[only].form.strength)] for Z in columns]
+
+
+def _probes(chain: Terms, x: Array) -> list[Terms]:
+    """The chain terms with the strengths in x (1 + k), and the last one with each of its own small in turn, or a drive as it is."""
+    own = chain[-1].form.strength
+    if not own:
+        return [_with_strengths(chain, x)]
+    sizes = np.diag([_probe(parameter) for parameter in own])
+    return [_with_strengths(chain, np.append(x, size)) for size in sizes]
+
+
+@lru_cache(maxsize=1)
+def _pool() -> ThreadPoolExecutor | None:
+    """Threads for runs, one a core; none on one core."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return ThreadPoolExecutor(cores, "towing") if cores > 1 else None
 
 
 def _probe(parameter: Parameter) -> float:

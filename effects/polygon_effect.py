@@ -1,9 +1,11 @@
 r"""Speed ripple of a round-link chain on its sprocket, at the frequency at which pockets pass.
 
-.. math::  v_\text{true} = v\,[1 + A \cos\theta - B \sin\theta], \qquad \theta = 2\pi x/\lambda
+.. math::  v_\text{true} = v\,\Bigl[1 + \sum_m (A_m \cos m\theta - B_m \sin m\theta)\Bigr], \qquad \theta = 2\pi x/\lambda
 
 x is the told travel and lambda the travel from pocket to pocket, so that the frequency is v/lambda. A chain on z pockets runs
-between R and R cos(pi/z), a ripple of about pi^2/(4 z^2) to either side. The told position does not know of it.
+between R and R cos(pi/z), a ripple of about pi^2/(4 z^2) to either side, whose second harmonic is a quarter of the first
+(:mod:`beam.polygon_effect` has the series). Plain form: one harmonic; richer: two, each free in size and phase. The told
+position does not know of it.
 """
 
 from __future__ import annotations
@@ -21,18 +23,23 @@ _SHORTEST, _LONGEST, _MOST = 0.04, 0.4, 60
 
 
 def _act(cable: TowedCable, strength: Sequence[float], pitch: float) -> TowedCable:
-    A, B = (float(v) for v in strength)
+    parts = [(m + 1, float(strength[2 * m]), float(strength[2 * m + 1])) for m in range(len(strength) // 2)]
     speed = float(np.abs(np.diff(cable.position) / np.diff(cable.time)).max())
 
     def drive(t: Array, motion: Array) -> Array:
-        k = 2 * math.pi / pitch
         x, v, a = motion.T
-        c, s = np.cos(k * x), np.sin(k * x)
-        ripple = A * c - B * s
-        p = x + (A * s + B * (c - 1)) / k
-        return np.column_stack([p, v * (1 + ripple), a * (1 + ripple) - v**2 * k * (A * s + B * c)])
+        ripple, slope, shift = np.zeros(len(x)), np.zeros(len(x)), np.zeros(len(x))
+        for m, A, B in parts:
+            k = 2 * math.pi * m / pitch
+            c, s = np.cos(k * x), np.sin(k * x)
+            ripple += A * c - B * s
+            slope += k * (A * s + B * c)
+            shift += (A * s + B * (c - 1)) / k
+        return np.column_stack([x + shift, v * (1 + ripple), a * (1 + ripple) - v**2 * slope])
 
-    return cable.driven(drive, pitch / speed) if speed > 0 and (A or B) else cable
+    if speed == 0 or not any(strength):
+        return cable
+    return cable.driven(drive, pitch / (speed * len(parts)))
 
 
 def _pitches(paths: Sequence[BenchPath]) -> Array:
@@ -52,6 +59,18 @@ def _part(name: str, meaning: str) -> Parameter:
     )  # fmt: skip
 
 
+_SHAPE = (
+    Parameter(
+        "pocket travel", "m", "travel from pocket to pocket", low=1e-3, plausible=(0.03, 0.6),
+        source="round-link chains of ISO 610, pitch 50 to 152 mm, one or two pitches a pocket", starts=_STARTS,
+    ),
+)  # fmt: skip
+_FIRST = (_part("cosine part", "ripple in phase with the start"), _part("sine part", "ripple a quarter later"))
+_SECOND = (
+    _part("second cosine part", "ripple twice a pocket, in phase with the start"),
+    _part("second sine part", "ripple twice a pocket, a quarter later"),
+)
+
 EFFECT = Effect(
     name="polygon-effect",
     kind="physics",
@@ -62,16 +81,8 @@ EFFECT = Effect(
     signature="a ripple of the tension whose period is a length of travel, not a time; strongest where it meets a mode of the cable",
     kinds=("towing",),
     forms=(
-        Form(
-            "one harmonic", "chain", _act,
-            shape=(
-                Parameter(
-                    "pocket travel", "m", "travel from pocket to pocket", low=1e-3, plausible=(0.03, 0.6),
-                    source="round-link chains of ISO 610, pitch 50 to 152 mm, one or two pitches a pocket", starts=_STARTS,
-                ),
-            ),
-            strength=(_part("cosine part", "ripple in phase with the start"), _part("sine part", "ripple a quarter later")),
-        ),
+        Form("one harmonic", "chain", _act, shape=_SHAPE, strength=_FIRST),
+        Form("two harmonics", "chain", _act, shape=_SHAPE, strength=(*_FIRST, *_SECOND)),
     ),
     why_untestable=needs_clock,
 )  # fmt: skip

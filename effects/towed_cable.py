@@ -70,7 +70,7 @@ class TowedCable:
         t, motion = led_motion(self.time, self.position, steps)
         for drive in self.drives:
             motion = drive(t, motion)
-        run = self.chain.led(t, motion, steps, stations)
+        run = self.chain.led(t, motion, steps, stations, tally=False)
         return [self._behind_the_bend(run.tension, motion, steps), *run.at]
 
     def _behind_the_bend(self, tension: Array, motion: Array, steps: int) -> Array:
