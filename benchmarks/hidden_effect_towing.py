@@ -1,7 +1,8 @@
-"""Make data/campaigns/towing-1, towing-2 and towing-3: synthetic towing runs in Exudyn, for `helicable explain`.
+"""Make data/campaigns/towing-1, towing-2, towing-3 and face-1: synthetic towing runs in Exudyn, for `helicable explain`.
 
 Six conditions each, done twice: four to calibrate, one to validate, one sealed. The runs come from
-:mod:`benchmarks.blind_towing.exudyn_line`; noise is drawn with a fixed seed. What is true stands in data/campaigns/truth.json and in
+:mod:`benchmarks.blind_towing.exudyn_line`; noise is drawn with a fixed seed. In face-1 the towed end is drawn over
+a bend, whose loss :mod:`benchmarks.layers_over_a_bend` adds. What is true stands in data/campaigns/truth.json and in
 truth.md, beside the folders, not in them.
 
 Run: python -m benchmarks.shipped_campaigns, which makes all shipped campaigns and the truth.
@@ -24,9 +25,11 @@ from benchmarks.blind_towing.folder import write_folder
 from benchmarks.blind_towing.generator import Condition
 from benchmarks.blind_towing.motion import to_and_fro
 from benchmarks.blind_towing.towed_line import Drive, Line, rest_tension
+from benchmarks.layers_over_a_bend import Bend
 
 Array = NDArray[np.float64]
 DURATION, SAMPLES = 16.0, 201
+LAB = "example-hidden-effect"
 GAIN, OFFSET = 0.003, 0.004
 
 
@@ -69,6 +72,7 @@ class Site:
     seed: int
     effects: tuple[str, ...]
     words: str
+    bend: Bend | None = None
 
     def conditions(self) -> list[Condition]:
         """As the writer and the line ask for them."""
@@ -77,7 +81,10 @@ class Site:
     def clean(self, condition: Condition, t: Array) -> Array:
         """Tensions (2, samples) [N] of one condition without noise."""
         drive = self.ripple(condition.motion) if self.ripple else condition.motion
-        return tow_exudyn(self.line, drive, condition.slope, condition.tail, self.extra, t, (self.station,))
+        found = tow_exudyn(self.line, drive, condition.slope, condition.tail, self.extra, t, (self.station,))
+        if self.bend:
+            found[0] += self.bend.tension(t, drive(t)[0], found[0])
+        return found
 
     def truth(self) -> dict[str, Any]:
         """For the score: names, and the numbers they were made with."""
@@ -89,7 +96,10 @@ class Site:
             numbers |= {"load": e.load, "drag": e.drag, "stretch": list(e.stretch)}
         if r:
             numbers |= {"pitch": r.pitch, "ratio": list(r.ratio), "phase": list(r.phase)}
-        return {"effects": list(self.effects), "kind": "towing", "numbers": numbers}
+        truth = {"effects": list(self.effects), "kind": "towing", "numbers": numbers}
+        if self.bend:
+            truth["carried"] = {"from": LAB, "effect": "interlayer-friction", "bend_radius": self.bend.radius}
+        return truth
 
 
 def _plan(tail: float, steep: float) -> tuple[tuple[float, float, float, str], ...]:
@@ -115,6 +125,16 @@ SITES = (
         "towing-3", Line(36.0, 4.0e5, 5.1, 0.375, 0.1, 2.4e-4), 0.34, 20.0, Extra(), None,
         _plan(1100.0, 9.0), Noise("ar", 0.012, GAIN, OFFSET), 20230303, (), "nothing is missing",
     ),
+    Site(
+        "face-1", Line(16.0, 1.6e5, 4.05, 0.09, 0.1, 3e-4), 0.12, 7.0, Extra(fall=0.013, fall_speed=0.15), None,
+        (
+            (0.08, 0.0, 900.0, "calibrate"), (0.25, 6.0, 2000.0, "calibrate"), (0.50, 0.0, 2000.0, "calibrate"),
+            (0.12, 6.0, 900.0, "calibrate"), (0.40, 3.0, 1400.0, "validate"), (0.60, 8.0, 1400.0, "sealed"),
+        ),
+        Noise("ar", 0.01, GAIN, OFFSET), 20230304, ("trough-friction-stribeck",),
+        "the friction coefficient falls with the sliding speed v: 0.09 + 0.013 / (1 + (v / 0.15 m/s)^2)",
+        Bend(0.25),
+    ),
 )  # fmt: skip
 
 README = """# Towing runs, site {number}
@@ -125,6 +145,24 @@ each done twice: four to calibrate, one to validate, one sealed (faster and stee
 Whether an effect beyond an elastic cable with Coulomb friction is hidden here stands in
 [../truth.md](../truth.md), outside this folder. Made in Exudyn by `python -m benchmarks.shipped_campaigns`,
 with no code of the model that explains.
+"""
+
+
+BEND_README = """# Towing runs at the face, over a bend
+
+**Synthetic.** The cable of [{lab}](../{lab}/README.md) (4.05 kg/m; it lies in waves, so that it stretches far more easily than a
+straight one) is towed to and fro along a trough. Its towed end is drawn over a bend of radius **{radius:g} m**, half a turn; the
+tension is read behind the bend, and in the trough {station:g} m from its begin. Six conditions at three tail tensions, each done
+twice: four to calibrate, one to validate, one sealed (faster and steeper than the others).
+
+Whether an effect beyond an elastic cable with Coulomb friction is hidden in the trough stands in
+[../truth.md](../truth.md), outside this folder. The line is made in Exudyn and the bend of layers that slip point by point, by
+`python -m benchmarks.shipped_campaigns {name}`, with no code of the model that explains.
+
+```sh
+helicable explain data/campaigns/{lab} --json found.json
+helicable explain data/campaigns/{name} --carry found.json --bend-radius "{radius:g} m"
+```
 """
 
 
@@ -165,9 +203,12 @@ def make_site(site: Site, parent: Path) -> None:
     """Write one campaign folder and its README."""
     t, conditions, clean = clean_runs(site)
     folder = parent / site.name
+    title = "at the face, over a bend" if site.bend else f"site {site.name[-1]}"
     write_folder(folder, site.line, site.nominal_friction, t, (site.station,), with_noise(site, conditions, clean),
-                 title=f"Cable towed to and fro in a trough, site {site.name[-1]} (synthetic)")  # fmt: skip
+                 title=f"Cable towed to and fro in a trough, {title} (synthetic)")  # fmt: skip
     text = README.format(number=site.name[-1], station=site.station)
+    if site.bend:
+        text = BEND_README.format(name=site.name, lab=LAB, radius=site.bend.radius, station=site.station)
     (folder / "README.md").write_text(text, encoding="utf-8")
 
 
@@ -175,5 +216,10 @@ def truth_section(site: Site) -> str:
     """Section of truth.md."""
     what = ", ".join(f"**{name}**" for name in site.effects)
     head = f"Missing in the base model: {what}, and nothing else: {site.words}." if what else "Nothing is missing."
+    if site.bend:
+        head = (
+            f"Missing in the base model: what the layers of [{LAB}]({LAB}/README.md) lose at a bend of radius "
+            f"{site.bend.radius:g} m, which is carried from there and is no effect of towing; beside it {what}, and nothing else: {site.words}."
+        )
     friction = f"True friction coefficient {site.line.friction:g}, nominal {site.nominal_friction:g}."
     return f"## {site.name}\n\n{head}\n{friction} {noise_words(site.noise)}\n"

@@ -45,7 +45,7 @@ class FitStore:
         InputError
             If the file cannot be read.
         """
-        digest = hashlib.sha256(repr(model).encode())
+        digest = hashlib.sha256(repr((model, getattr(model, "towing", None))).encode())
         for e in campaign.experiments:
             if e.set == "calibrate" or (e.set == "validate" and e.repeat_of):
                 told = (e.id, e.kind, e.set, e.specimen, sorted(e.conditions.items()), e.repeat_of, e.continues)

@@ -257,7 +257,8 @@ class Scan:
     def grid(self, term: ActiveEffect, shapes: Sequence[tuple[float, ...]]) -> Grams:
         """Of one more term at several shapes: S and A of shape (m, ...); X, which no search needs, is left empty.
 
-        Where columns are dear, those of a towing record, all shapes are rough but the best: it is corrected until it stays.
+        Where columns are dear, those of a towing record, all shapes are rough but the best and those beside it: they are corrected
+        until it stays, for a column that is linear at a strength far from that fitted can make a good shape look bad.
         """
         terms = [replace(term, shape=shape) for shape in shapes]
         if not self.dear:
@@ -265,9 +266,10 @@ class Scan:
         self._response.prepare([(*self.accepted, t) for t in terms])
         A = np.stack([self.cost_matrix(t, rough=True) for t in terms])
         corrected: set[int] = set()
-        while (best := int(np.argmin(total_cost(self.of_matrix(term, A))))) not in corrected:
-            A[best] = self.cost_matrix(terms[best])
-            corrected.add(best)
+        while todo := _beside(shapes, int(np.argmin(total_cost(self.of_matrix(term, A))))) - corrected:
+            for i in todo:
+                A[i] = self.cost_matrix(terms[i])
+            corrected |= todo
         return self.of_matrix(term, A)
 
     def of_matrix(self, term: ActiveEffect, A: Array) -> Grams:
@@ -325,6 +327,15 @@ class Scan:
         X, n, repeated = shared_products(block, rows)
         S = self.scatter.measured(A)
         return Grams(S, X, A, n, repeated, positive_flags(block, terms), len(block.base), self.scatter)
+
+
+def _beside(shapes: Sequence[Shape], best: int) -> set[int]:
+    """The best shape and its neighbours on the grid, one parameter apart."""
+    axes = [sorted(set(values)) for values in zip(*shapes, strict=True)]
+    at = np.array([[axis.index(v) for axis, v in zip(axes, shape, strict=True)] for shape in shapes]).reshape(
+        len(shapes), -1
+    )
+    return set(np.flatnonzero(np.abs(at - at[best]).sum(axis=1) <= 1).tolist())
 
 
 def _sample_white(

@@ -17,6 +17,7 @@ from compare.campaign import Campaign
 from compare.campaign_file import FILE
 from compare.experiment import Experiment, Record
 from compare.kinds import station
+from effects.bending_loss import BendingLoss
 from effects.effect import ActiveEffect, BenchPath
 from effects.effect_check import TOWED
 from effects.towed_cable import TowedCable
@@ -42,6 +43,7 @@ class TowingSetup:
     presliding: float = PRESLIDING
     elements: int = 32
     notes: tuple[str, ...] = ()
+    bend: BendingLoss | None = None
 
     @classmethod
     def of(cls, campaign: Campaign, EA: float | None = None, mass: float | None = None) -> TowingSetup | None:
@@ -88,7 +90,37 @@ class TowingSetup:
         chain = self.chain(friction, tail, slope)
         position = told_position(experiment, self.length)
         assert record.time is not None
-        return TowedCable(chain, record.time - record.time[0], position)
+        return TowedCable(chain, record.time - record.time[0], position, carried=self.bend)
+
+    def carrying(self, laws: Sequence[ActiveEffect], EI: float, bend_radius: float) -> TowingSetup:
+        """The same with laws that a bench found in bending, at the bend over which the towed end is drawn.
+
+        They are taken as true: nothing of them is fitted to towing records.
+
+        Parameters
+        ----------
+        laws : sequence of ActiveEffect
+            Of the section, in bending.
+        EI : float
+            Bending stiffness [N m^2] that was calibrated with them.
+        bend_radius : float
+            [m].
+
+        Raises
+        ------
+        InputError
+            If a law does not act in the section in bending, or a number is not positive.
+        """
+        bend = BendingLoss(laws, EI, bend_radius)
+        names = ", ".join(dict.fromkeys(a.effect.name for a in bend.laws))
+        notes = [
+            f"{names} is carried from the bench into the bend of radius {bend_radius:g} m; it was not fitted here."
+        ]
+        if bend.curvature > 1.001 * bend.largest_tested:
+            notes.append(
+                f"the bench bent to {bend.largest_tested:.3g} 1/m, this bend has {bend.curvature:.3g} 1/m: its loss is extrapolated."
+            )
+        return replace(self, bend=bend, notes=(*self.notes, *notes))
 
     def chain(self, friction: float, tail: float, slope: float) -> AxialChain:
         """The cable at a friction coefficient, a tail tension [N] and an inclination [rad]."""

@@ -6,7 +6,8 @@ the tension at the towed end is read behind the bend,
 .. math::  T_\text{read} = T\,(1 + c\,\sigma), \qquad \sigma = z/d, \quad \mathrm{d}z = \mathrm{d}p, \quad |z| \le d
 
 with the travel d that mobilises the friction of the trough: a stop (Prandtl) operator, whose complement p - z is play
-(Visintin, Differential Models of Hysteresis, 1994, ch. III).
+(Visintin, Differential Models of Hysteresis, 1994, ch. III). A cable whose section is known to lose work in bending loses it there
+beside that (:mod:`effects.bending_loss`).
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from beam.axial_chain import AxialChain, led_motion
-from beam.compiled import kernel
+from effects.bending_loss import BendingLoss, stop
 from effects.effect import Array, BenchPath, Starts
 
 Drive = Callable[[Array, Array], Array]
@@ -42,6 +43,8 @@ class TowedCable:
         Part of the tension that the bend at the towed end costs.
     smooth_bend : bool
         Whether this is mobilised over the travel of the trough's friction; else it has the sign of the speed.
+    carried : BendingLoss or None
+        What the section, as the bench knows it, loses at this bend.
     """
 
     chain: AxialChain
@@ -51,6 +54,7 @@ class TowedCable:
     shortest: float = math.inf
     bend: float = 0.0
     smooth_bend: bool = True
+    carried: BendingLoss | None = None
 
     def driven(self, drive: Drive, shortest: float = math.inf) -> TowedCable:
         """The same with one more drive."""
@@ -76,21 +80,14 @@ class TowedCable:
 
     def behind_the_bend(self, tension: Array, motion: Array, steps: int) -> Array:
         """What is read (n,) of the tension before the bend, with the motion of :meth:`led`."""
-        if self.bend == 0:
-            return tension
-        d = self.chain.presliding
-        sense = stop(motion[:, 0], d, 0.0) / d if self.smooth_bend else np.sign(motion[:, 1])
-        return tension * (1 + self.bend * sense[::steps])
-
-
-@kernel
-def stop(p: Array, limit: float, start: float) -> Array:
-    """z (m,) that follows p within +-limit, from `start`."""
-    z = np.empty(len(p))
-    z[0] = start
-    for i in range(1, len(p)):
-        z[i] = min(max(z[i - 1] + p[i] - p[i - 1], -limit), limit)
-    return z
+        read = tension
+        if self.bend != 0:
+            d = self.chain.presliding
+            sense = stop(motion[:, 0], d, 0.0) / d if self.smooth_bend else np.sign(motion[:, 1])
+            read = read * (1 + self.bend * sense[::steps])
+        if self.carried is not None:
+            read = read + self.carried.resistance(motion[::steps, 0], motion[::steps, 1], tension)
+        return read
 
 
 def largest_speed(path: BenchPath) -> float:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from compare import BenchModel, BenchSection, Campaign, plot_comparison
 from compare import compare as compare_with
 from compare.nominal_section import NominalSection
 from compare.towing_setup import TowingSetup
 from geometry import read_cable
 from geometry.errors import ConvergenceError, SpecError
+from helicable.carried_law import BendRadiusOption, CarryOption, carry_into, change_of_carrying
 from helicable.options import CampaignArgument, JsonOption, OutOption
 from helicable.rod_correction import FullRod, rod_correction, show_correction
 from helicable.screen import folder, progress, say, sheet, table, write_json
@@ -21,21 +24,28 @@ def compare(
     json: JsonOption = None,
     out: OutOption = None,
     full_rod: FullRod = False,
+    carry: CarryOption = None,
+    bend_radius: BendRadiusOption = None,
 ) -> None:
     """Compare measurements with the linear cable model, after calibrating its stiffness.
 
     Example: `helicable compare my-campaign --out report`
     """
     read = Campaign.read(campaign)
-    model = campaign_model(read)
+    plain = campaign_model(read)
+    model = carry_into(plain, carry, bend_radius)
     with progress("comparing") as tell:
         comparison = compare_with(model, read, progress=tell)
     record = comparison.record()
+    if carry is not None:
+        with progress("comparing without what was carried"):
+            record["carried"] = change_of_carrying(compare_with(plain, read), comparison)
     sheet(read.title, [("", comparison.headline()), ("", "")])
     rows = [
         (r["id"], r["kind"], r["channel"], r["set"], *(_short(r[k]) for k in ("rmse", "bias", "noise_floor", "excess")))
         for r in record["experiments"]
     ]
+    show_carried(record)
     columns = ("id", "kind", "channel", "set", "rmse", "bias", "noise floor", "excess")
     table("Calibrated model against measurement (SI units)", columns, rows, right=(4, 5, 6, 7))
     calibrated = [(k, _short(v["value"]), _short(v["std"]), v["unit"]) for k, v in record["calibrated"].items()]
@@ -53,6 +63,19 @@ def compare(
         say("written: " + ", ".join(str(p) for p in (*pictures, out / "comparison.json")))
     if not comparison.fits:
         raise ConvergenceError("no experiment of this campaign could be compared; see the notes above.")
+
+
+def show_carried(record: dict[str, Any]) -> None:
+    """What a carried law changes, if there is one."""
+    if "carried" not in record:
+        return
+    rows = [(r["what"], _short(r["without"]), _short(r["with"]), r["unit"]) for r in record["carried"]["rows"]]
+    table(
+        f"The prediction without and with {record['carried']['title']}",
+        ("", "without", "with", "unit"),
+        rows,
+        right=(1, 2),
+    )
 
 
 def campaign_model(campaign: Campaign) -> BenchModel:

@@ -12,6 +12,7 @@ from compare.fit_store import FILE
 from effects import Effect, find
 from geometry.errors import InputError
 from helicable.bench_campaign import bench_model, read_bench_campaign
+from helicable.carried_law import BendRadiusOption, CarryOption, carry_into
 from helicable.explain_screen import show_findings
 from helicable.options import CampaignArgument, JsonOption, OutOption
 from helicable.rod_correction import FullRod, rod_correction, show_correction
@@ -38,6 +39,8 @@ def explain(
     open_sealed: OpenSealed = False,
     effects: Names = None,
     full_rod: FullRod = False,
+    carry: CarryOption = None,
+    bend_radius: BendRadiusOption = None,
 ) -> None:
     """Find the physics that the linear model misses, and prove it on data that it did not fit.
 
@@ -49,7 +52,8 @@ def explain(
     from compare.explain import explain as explain_campaign
     from compare.explain import open_and_validate
 
-    model, library = bench_model(read), None if effects is None else chosen_effects(effects)
+    model = carry_into(bench_model(read), carry, bend_radius)
+    library = None if effects is None else chosen_effects(effects)
     with progress("explaining") as tell:
         kept = None if out is None else folder(out) / FILE
         findings = explain_campaign(model, read, progress=tell, library=library, store=kept)
