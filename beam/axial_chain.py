@@ -13,7 +13,8 @@ within +-d, so that a travel d mobilises it (Dahl's model without its bend; Dupo
 mode of a rod whose tail is free, omega_1 = (pi / 2L) sqrt(EA / m).
 
 Linear elements with lumped masses; Newmark's average acceleration (order 2) between the samples of the record, whose
-position is a cubic spline at rest at its first sample. Friction is taken at the end of a step, by Newton's method.
+position is a cubic spline at rest at its first sample. Friction is taken at the end of a step, with the speed there, by Newton's
+method.
 """
 
 from __future__ import annotations
@@ -61,7 +62,8 @@ class AxialChain:
     added : tuple of (float, float, float)
         Further mass per length [kg/m], from s to s [m]; as often as there are loads.
     fall, fall_speed, fall_power : float
-        Friction at rest above `friction`, gone with speed as fall * exp(-(v / fall_speed)^fall_power).
+        Friction at rest above `friction`, gone with speed as fall * exp(-(v / fall_speed)^fall_power); with a power of 0
+        as fall / (1 + (v / fall_speed)^2).
     drag : float
         Resistance per length and speed [N s/m^2].
     elements : int
@@ -102,6 +104,11 @@ class AxialChain:
                 raise InputError(f"axial chain: {name} must be positive, found {getattr(self, name):g}.")
         if self.elements < 2:
             raise InputError(f"axial chain: {self.elements} element(s) are no chain; take at least 2.")
+
+    def excess(self, speed: float) -> float:
+        """What the friction coefficient has above `friction` at a sliding speed [m/s]."""
+        x = speed / self.fall_speed
+        return self.fall / (1 + x**2) if self.fall_power == 0 else self.fall * math.exp(-(x**self.fall_power))
 
     @property
     def first_frequency(self) -> float:
@@ -280,6 +287,7 @@ def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
     n = len(M)
     u, v, a, f = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
     u1, v1, a1, f1 = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
+    z, z1 = np.zeros(n), np.zeros(n)  # of the bristles, counted where friction falls with speed
     known, right, r, new, tangent = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
     inverse, link, inertia, begin, moved = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
     viscous = np.full(n, drag)
@@ -299,7 +307,7 @@ def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
             if abs(t[i] - t[i - 1] - dt) > 1e-9 * dt:  # steps that differ by rounding are the same
                 dt = t[i] - t[i - 1]
                 kk = k * (1.0 + 2.0 * beta / dt)
-                per_fall = 1.0 / (dt * fall_speed)
+                per_fall = 2.0 / (dt * fall_speed)
                 stale = 1
                 for j in range(n):
                     inertia[j] = 4.0 * M[j] / dt**2 + 2.0 * viscous[j] / dt
@@ -340,10 +348,12 @@ def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
                 if fall > 0.0:
                     for j in range(n):
                         du = u1[j] - u[j]
-                        trial = f[j] + stiff[j] * du
-                        new[j], tangent[j] = trial, stiff[j]
-                        if abs(trial) > normal[j] * mu:
-                            q, rise = abs(du) * per_fall, power
+                        rate = 2.0 / dt * du - v[j] if j > 0 else motion[i, 1]
+                        q, rise = abs(rate) / fall_speed, power
+                        if power == 0.0:
+                            e = fall / (1.0 + q * q)
+                            rise = 2.0 * q / (1.0 + q * q)
+                        else:
                             if power == 2.0:
                                 q, rise = q * q, 2.0 * q
                             elif power != 1.0:
@@ -354,10 +364,12 @@ def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
                             if abs(ahead) > 0.0625:
                                 told[j], excess[j], ahead = q, fall * math.exp(-q), 0.0
                             e = excess[j] * _exponential(ahead)
-                            top = normal[j] * (mu + e)
-                            if abs(trial) > top:
-                                new[j] = math.copysign(top, trial)
-                                tangent[j] = -normal[j] * e * rise * per_fall
+                        z1[j] = min(max(z[j] + du, -travel), travel)
+                        top = normal[j] * (mu + e)
+                        new[j] = top * z1[j] / travel
+                        tangent[j] = -normal[j] * z1[j] / travel * math.copysign(e * rise * per_fall, rate)
+                        if abs(z1[j]) < travel:
+                            tangent[j] += top / travel
                 else:
                     for j in range(n):
                         trial = f[j] + stiff[j] * (u1[j] - u[j])
@@ -384,7 +396,7 @@ def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
                 return i
             for j in range(n):
                 du = u1[j] - u[j]
-                begin[j] = 0.0 if tangent[j] == stiff[j] else du
+                begin[j] = 0.0 if (abs(z1[j]) < travel if fall > 0.0 else tangent[j] == stiff[j]) else du
                 v1[j] = 2.0 / dt * du - v[j]
                 a1[j] = 4.0 / dt**2 * du - 4.0 / dt * v[j] - a[j]
             v1[0], a1[0] = motion[i, 1], motion[i, 2]
@@ -404,6 +416,7 @@ def _kernel(  # noqa: C901, PLR0915 - one step of the chain, node by node
         v, v1 = v1, v
         a, a1 = a1, a
         f, f1 = f1, f
+        z, z1 = z1, z
         if i % substeps == 0:
             out[row, 0] = pull
             for j in range(1, n):

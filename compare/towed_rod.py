@@ -85,7 +85,7 @@ def carried(cable: TowedCable) -> tuple[TowedCable, tuple[str, ...]]:
     chain, notes = cable.chain, []
     if chain.fall > 0:
         speed = _typical_speed(cable)
-        at = chain.friction + chain.fall * math.exp(-((speed / chain.fall_speed) ** chain.fall_power))
+        at = chain.friction + chain.excess(speed)
         chain = replace(chain, friction=at, fall=0.0)
         notes.append(
             "friction that falls with speed is not in the contact law of the rod: rod and chain are compared at the constant "

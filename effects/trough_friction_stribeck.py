@@ -4,7 +4,8 @@ r"""Friction on the trough that falls with sliding speed.
 
 mu is the coefficient at high speed, that which is calibrated; Delta mu the excess at rest, v_s the speed at which it goes.
 Plain form p = 1 (Tustin 1947; Bo & Pavelescu, Wear 82 (1982) 277), richer p = 2 (Armstrong-Helouvry et al., Automatica
-30 (1994) 1083). Every point of the cable slides at its own speed.
+30 (1994) 1083), and with a longer tail Delta mu / (1 + (v/v_s)^2) (Hess & Soom, J. Tribol. 112 (1990) 147). Every point of
+the cable slides at its own speed.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ def _why_untestable(paths: Sequence[BenchPath]) -> str | None:
 
 _SHAPE = (
     Parameter(
-        "fall speed", "m/s", "speed at which the excess has fallen to 1/e", low=1e-6, plausible=(1e-3, 3.0),
+        "fall speed", "m/s", "speed at which the excess has fallen to 1/e (rational: to a half)", low=1e-6, plausible=(1e-3, 3.0),
         source="rubber and polymers on steel: millimetres to metres per second (Persson, Sliding Friction, 2000)",
         starts=of_speed(0.03, 1.0, 6),
     ),
@@ -46,14 +47,15 @@ EFFECT = Effect(
     name="trough-friction-stribeck",
     kind="physics",
     title="friction on the trough falls with sliding speed",
-    equation="mu(v) = mu + fall exp(-(|v|/v_s)^p)",
-    source="Bo & Pavelescu, Wear 82 (1982) 277; Armstrong-Helouvry et al., Automatica 30 (1994) 1083",
+    equation="mu(v) = mu + fall exp(-(|v|/v_s)^p), or mu + fall / (1 + (v/v_s)^2)",
+    source="Bo & Pavelescu, Wear 82 (1982) 277; Hess & Soom, J. Tribol. 112 (1990) 147; Armstrong-Helouvry et al., Automatica 30 (1994) 1083",
     needs="at least two speeds, or slow and fast phases in a record",
     signature="more friction where the cable is slow: a peak at breaking away, and a gap between slow and fast records",
     kinds=("towing",),
     forms=(
         Form("exponential", "chain", _law(1.0), shape=_SHAPE, strength=_STRENGTH),
         Form("Gaussian", "chain", _law(2.0), shape=_SHAPE, strength=_STRENGTH),
+        Form("rational", "chain", _law(0.0), shape=_SHAPE, strength=_STRENGTH),
     ),
     why_untestable=_why_untestable,
 )
