@@ -48,7 +48,8 @@ EFFECT = Effect(
     kind="physics",
     title="friction on the trough falls with sliding speed",
     equation="mu(v) = mu + fall exp(-(|v|/v_s)^p), or mu + fall / (1 + (v/v_s)^2)",
-    source="Bo & Pavelescu, Wear 82 (1982) 277; Hess & Soom, J. Tribol. 112 (1990) 147; Armstrong-Helouvry et al., Automatica 30 (1994) 1083",
+    source="Bo & Pavelescu, Wear 82 (1982) 277; Hess & Soom, J. Tribol. 112 (1990) 147; "
+    "Armstrong-Helouvry et al., Automatica 30 (1994) 1083",
     needs="at least two speeds, or slow and fast phases in a record",
     signature="more friction where the cable is slow: a peak at breaking away, and a gap between slow and fast records",
     kinds=("towing",),
