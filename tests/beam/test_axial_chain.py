@@ -201,7 +201,7 @@ def test_the_series_of_the_falling_friction():
 
 @pytest.mark.parametrize("power", [0.0, 1.0, 1.5, 2.0])
 def test_falling_friction_does_not_depend_on_the_elements_that_are_kept(power):
-    """At every speed of a slow ramp the pull is the integral of mu(v): each law, within 0.5 % of the friction; power 0 is the rational one."""
+    """At every speed of a slow ramp the pull is the integral of mu(v): within 0.5 % of the friction; power 0: the rational law."""
     chain = replace(CABLE, fall=0.05, fall_speed=0.3, fall_power=power, inclination=0.0)
     t = np.linspace(0.0, 40.0, 401)
     speed = 0.01 * np.clip(t - 1.0, 0.0, None)
