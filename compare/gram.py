@@ -332,7 +332,9 @@ class Scan:
 def _beside(shapes: Sequence[Shape], best: int) -> set[int]:
     """The best shape and its neighbours on the grid, one parameter apart."""
     axes = [sorted(set(values)) for values in zip(*shapes, strict=True)]
-    at = np.array([[axis.index(v) for axis, v in zip(axes, shape, strict=True)] for shape in shapes]).reshape(len(shapes), -1)
+    at = np.array([[axis.index(v) for axis, v in zip(axes, shape, strict=True)] for shape in shapes]).reshape(
+        len(shapes), -1
+    )
     return set(np.flatnonzero(np.abs(at - at[best]).sum(axis=1) <= 1).tolist())
 
 

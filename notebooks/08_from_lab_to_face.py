@@ -53,8 +53,8 @@ assert lab_error.before > 10 * lab_error.after
 # A cable that is drawn over a bend of radius R is bent and straightened again. Per metre that passes, its layers lose the area W of the
 # loop of moment over curvature 0 → 1/R → 0, at the grip of the tension there; W is a force, which the trolley must pull in addition
 # ([the law](../effects/bending_loss.py)). The same law can act at every Gauss point of the rod
-# (`helicable tow intelligent-horizontal --constants published --effects explain.json`), and a rod that is bent to 1/R and straightened loses
-# the same per length ([test](../tests/effects/test_bending_loss.py)).
+# (`helicable tow intelligent-horizontal --constants published --effects explain.json`), and a rod that is bent to 1/R and straightened
+# loses the same per length ([test](../tests/effects/test_bending_loss.py)).
 
 # %%
 radius = 0.25  # m, from the page of the face's campaign
