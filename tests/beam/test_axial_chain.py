@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from beam.axial_chain import GRAVITY, AxialChain
+from beam.axial_chain import GRAVITY, AxialChain, _exponential, led_motion
 from geometry.errors import InputError
 
 CABLE = AxialChain(length=40.0, EA=4e5, mass=4.6, friction=0.35, tail_tension=800.0, inclination=0.1, presliding=3e-4)
@@ -154,3 +154,32 @@ def test_bad_input_is_told():
         replace(CABLE, length=0.0)
     with pytest.raises(InputError, match="not finite at sample 12"):
         CABLE.run(TIME, np.where(TIME > 1, np.nan, 0.0))
+
+
+def test_energies_are_counted_where_they_are_asked_for():
+    """The tension is the same to the last digit without them."""
+    t, motion = led_motion(TIME, eased(TIME, 1.0, 3.0, 0.6), 8)
+    counted, plain = (CABLE.led(t, motion, 8, tally=tally) for tally in (True, False))
+    np.testing.assert_array_equal(counted.tension, plain.tension)
+    assert len(counted.energies.led) == len(TIME) and len(plain.energies.led) == 0
+
+
+def test_the_series_of_the_falling_friction():
+    """exp(x) for |x| < 1/16 to 1e-12."""
+    series = getattr(_exponential, "py_func", _exponential)
+    for x in (-1 / 16, -0.01, 0.0, 0.03, 1 / 16):
+        assert series(x) == pytest.approx(math.exp(x), rel=1e-12)
+
+
+@pytest.mark.parametrize("power", [1.0, 1.5, 2.0])
+def test_falling_friction_does_not_depend_on_the_elements_that_are_kept(power):
+    """At every speed of a slow ramp the pull is the integral of mu(v): each power of the law, within 0.5 % of the friction."""
+    chain = replace(CABLE, fall=0.05, fall_speed=0.3, fall_power=power, inclination=0.0)
+    t = np.linspace(0.0, 40.0, 401)
+    speed = 0.01 * np.clip(t - 1.0, 0.0, None)
+    run = chain.run(t, 0.005 * np.clip(t - 1.0, 0.0, None) ** 2)
+    weight = 4.6 * GRAVITY * 40
+    mu = 0.35 + 0.05 * np.exp(-((speed / 0.3) ** power))
+    np.testing.assert_allclose(
+        run.tension[100:] - 800.0, (mu * weight + 4.6 * 40 * 0.01)[100:], atol=0.005 * 0.35 * weight
+    )

@@ -114,6 +114,22 @@ def test_polygon_drive_is_one_motion_with_its_phase_at_the_start():
     assert ratio == pytest.approx([1.05, 1.05, 0.98, 0.95], abs=1e-4)
 
 
+def test_two_harmonics_are_one_motion_and_the_second_passes_twice_a_pocket():
+    """v = p', a = v'; with the second part alone the ripple is that of half the pocket travel, with the first alone the plain form."""
+    t = np.linspace(0.0, 4.0, 4001)
+    motion = np.column_stack([0.01 * t**3, 0.03 * t**2, 0.06 * t])
+    cable, (plain, two) = TowedCable(CHAIN, t, motion[:, 0]), find("polygon-effect").forms
+
+    def led(form, strength, travel):
+        return form.respond(cable, strength, travel).drives[0](t, motion)
+
+    p1, v1, a1 = led(two, (0.05, 0.02, 0.01, -0.02), 0.1).T
+    for rate, found in ((p1, v1), (v1, a1)):
+        np.testing.assert_allclose(np.gradient(rate, t)[1:-1], found[1:-1], atol=4e-3 * np.abs(found).max())
+    np.testing.assert_allclose(led(two, (0.05, 0.02, 0.0, 0.0), 0.1), led(plain, (0.05, 0.02), 0.1), atol=1e-14)
+    np.testing.assert_allclose(led(two, (0.0, 0.0, 0.05, 0.02), 0.1), led(plain, (0.05, 0.02), 0.05), atol=1e-14)
+
+
 def test_clamp_drive_is_one_motion():
     """Outside the play the end moves as told, b behind after a reversal; inside it stands."""
     t = np.linspace(0.0, 2.0, 401)
