@@ -87,16 +87,21 @@ def fitted(grams: Grams, term: ActiveEffect) -> FormFit:
 
 
 def refine(scan: Scan, term: ActiveEffect, grid: Grams, shapes: Sequence[tuple[float, ...]]) -> FormFit:
-    """The best shape of the grid, moved to the nearest minimum of the cost."""
+    """The best shape of the grid, moved to the nearest minimum of the cost, with the fit there."""
+    return searched(scan, best_shape(scan, term, grid, shapes), shapes)
+
+
+def best_shape(scan: Scan, term: ActiveEffect, grid: Grams, shapes: Sequence[tuple[float, ...]]) -> ActiveEffect:
+    """The term at the best shape of the grid, moved to the nearest minimum of the cost."""
     costs = np.atleast_1d(total_cost(grid))
     best = int(np.argmin(costs))
     here = replace(term, shape=shapes[best])
     if not term.form.shape:
-        return fitted(scan.candidate(here), here)
+        return here
     limits = _limits(term.form, shapes)
     around = _neighbours(shapes, best, limits)
     search = _search_and_correct if scan.dear else _search
-    return searched(scan, search(scan, here, costs[best], around, limits), shapes)
+    return search(scan, here, costs[best], around, limits)
 
 
 def _search_and_correct(

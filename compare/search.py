@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from compare.bench_design import Block
 from compare.evidence import LeftOut, Null, left_out, log_e_value, splits
-from compare.form_fit import FormFit, Site, fitted, refine, searched, shape_grid, sites, total_cost
+from compare.form_fit import FormFit, Site, best_shape, fitted, refine, searched, shape_grid, sites, total_cost
 from compare.gram import Grams, Scan
 from compare.shared_misfit import SharedMisfit, shared_misfit
 from effects.effect import ActiveEffect, Effect, Form
@@ -361,7 +361,7 @@ def _moved(block: Block, terms: Sequence[ActiveEffect], i: int) -> ActiveEffect:
         for factor in (0.7, 1.4):
             low, high = term.form.shape[k].low, term.form.shape[k].high
             near.append((*term.shape[:k], float(np.clip(value * factor, low, high)), *term.shape[k + 1 :]))
-    return refine(scan, term, scan.grid(term, near), near).term
+    return best_shape(scan, term, scan.grid(term, near), near)
 
 
 def plain_and_free(effect: Effect) -> list[Form]:

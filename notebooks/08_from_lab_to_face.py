@@ -53,8 +53,8 @@ assert lab_error.before > 10 * lab_error.after
 # A cable that is drawn over a bend of radius R is bent and straightened again. Per metre that passes, its layers lose the area W of the
 # loop of moment over curvature 0 → 1/R → 0, at the grip of the tension there; W is a force, which the trolley must pull in addition
 # ([the law](../effects/bending_loss.py)). The same law can act at every Gauss point of the rod
-# (`helicable tow intelligent-horizontal --constants published --effects explain.json`), and a rod that is bent to 1/R and straightened loses
-# the same per length ([test](../tests/effects/test_bending_loss.py)).
+# (`helicable tow intelligent-horizontal --constants published --effects explain.json`), and a rod that is bent to 1/R and straightened
+# loses the same per length ([test](../tests/effects/test_bending_loss.py)).
 
 # %%
 radius = 0.25  # m, from the page of the face's campaign
@@ -121,12 +121,12 @@ for row, (*_, value) in zip(rows, steps, strict=True):
     axes.text(1.04 * value, row, f"{value:.1f}" if value > 3 else f"{value:.2f}", va="center")
 axes.axvline(1.0, color="0.2", linewidth=1, linestyle="--", zorder=3)
 axes.set_xscale("log")
-axes.set_xlim(0.5, 30)
+axes.set_xlim(0.5, 42)
 axes.set_xticks([0.5, 1, 2, 5, 10, 20], ["0.5", "1", "2", "5", "10", "20"])
 axes.minorticks_off()
 axes.set_yticks(rows, [name for _, name, _ in steps])
 for first, last, words in ((0, 1, "LAB\nbending"), (2, 7, "FACE\ntowing")):
-    axes.text(29, (rows[first] + rows[last]) / 2, words, ha="right", va="center", weight="bold", color="0.35")
+    axes.text(41, (rows[first] + rows[last]) / 2, words, ha="right", va="center", weight="bold", color="0.35")
 axes.set_xlabel("error over the noise floor (dashed: as good as the data allow)")
 axes.spines[["top", "right"]].set_visible(False)
 axes.tick_params(axis="y", length=0)

@@ -74,9 +74,9 @@ def test_compare_prints_the_prediction_without_and_with_it(tmp_path, capsys):
     found, out = found_json(tmp_path / "found.json", FRICTION, LAG), tmp_path / "compare.json"
     command = ["compare", str(folder), "--carry", str(found), "--bend-radius", "25 cm", "--json", str(out)]
     assert main(command) == 0
-    shown = capsys.readouterr().out
+    shown = " ".join(capsys.readouterr().out.split())
     assert "without and with interlayer-friction carried from the bench" in shown
-    assert "left aside" in shown and "it was not fitted here" in shown.replace("\n", " ") and "extrapolated" in shown
+    assert "left aside" in shown and "it was not fitted here" in shown and "extrapolated" in shown
     record = json.loads(out.read_text())["carried"]
     by_name = {row["what"]: row for row in record["rows"]}
     swing = by_name["swing of the tension, w01"]
