@@ -19,7 +19,7 @@ from compare.evaluation_store import EvaluationStore
 from effects.effect import ActiveEffect, Effect
 
 FILE = "fits.jsonl"
-_VERSION = 1
+_VERSION = 2
 
 
 @dataclass
