@@ -219,7 +219,8 @@ def truth_section(site: Site) -> str:
     if site.bend:
         head = (
             f"Missing in the base model: what the layers of [{LAB}]({LAB}/README.md) lose at a bend of radius "
-            f"{site.bend.radius:g} m, which is carried from there and is no effect of towing; beside it {what}, and nothing else: {site.words}."
+            f"{site.bend.radius:g} m, which is carried from there and is no effect of towing; beside it {what}, "
+            f"and nothing else: {site.words}."
         )
     friction = f"True friction coefficient {site.line.friction:g}, nominal {site.nominal_friction:g}."
     return f"## {site.name}\n\n{head}\n{friction} {noise_words(site.noise)}\n"
