@@ -19,7 +19,7 @@ HEAD = """# Blind towing campaigns
 
 Hidden-effect towing campaigns made by a simulator that shares no code with the model that explains
 ([benchmarks/blind_towing](blind_towing)), and what `explain` says of them. Line, trough, noise, effect and its form are drawn from the
-seed; half of the forms are richer than those of the library. The label stays outside the folder. *share*: part of the tension that no
+seed; many of the forms are richer than those of the library. The label stays outside the folder. *share*: part of the tension that no
 friction coefficient absorbs; *D*: its distance from the best base model in units of the noise; errors in noise floors.
 
     .venv/bin/python -m benchmarks.blind_towing --first {first} --campaigns {count} --out benchmarks/blind_towing.md
