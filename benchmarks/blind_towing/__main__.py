@@ -9,24 +9,37 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from benchmarks.blind_towing.confusion_plot import draw_confusion
 from benchmarks.blind_towing.generator import Case, make
-from benchmarks.blind_towing.score import read_log, run, table
+from benchmarks.blind_towing.score import Row, read_log, run, table
 
 HEAD = """# Blind towing campaigns
 
 Hidden-effect towing campaigns made by a simulator that shares no code with the model that explains
 ([benchmarks/blind_towing](blind_towing)), and what `explain` says of them. Line, trough, noise, effect and its form are drawn from the
 seed; many of the forms are richer than those of the library. The label stays outside the folder. *share*: part of the tension that no
-friction coefficient absorbs; *D*: its distance from the best base model in units of the noise; errors in noise floors.
+friction coefficient absorbs; *D*: its distance from the best base model in units of the noise; errors in noise floors. *apart*: distance of
+the nearest rival, every other effect fitted to what the truth makes with its strength and the friction coefficient; rivals closer than 5
+are twins, and a set of truth and twins is then right ([rivals.py](blind_towing/rivals.py)).
 
     .venv/bin/python -m benchmarks.blind_towing --first {first} --campaigns {count} --out benchmarks/blind_towing.md
 
 ![Confusion matrix]({picture})
 
 """
+
+BELOW = "## Beside the score"
+
+
+def page(rows: Sequence[Row], out: Path, picture: Path) -> str:
+    """Head, picture and table; what else was written by hand below them in an earlier `out` stays."""
+    head = HEAD.format(first=min(r["seed"] for r in rows), count=len(rows), picture=picture.as_posix())
+    old = out.read_text(encoding="utf-8") if out.is_file() else ""
+    below = old[old.index(BELOW) :] if BELOW in old else ""
+    return "\n".join([head + table(rows), below]).rstrip() + "\n"
 
 
 def main(argv: list[str]) -> int:
@@ -58,9 +71,7 @@ def main(argv: list[str]) -> int:
     rows = read_log(asked.log)
     print(table(rows))
     if asked.out:
-        at = Path("..") / asked.picture
-        text = HEAD.format(first=min(r["seed"] for r in rows), count=len(rows), picture=at.as_posix())
-        asked.out.write_text(text + table(rows), encoding="utf-8")
+        asked.out.write_text(page(rows, asked.out, Path("..") / asked.picture), encoding="utf-8")
         draw_confusion(rows, asked.picture, f"{len(rows)} towing campaigns: what is true, what explain said")
     return 0
 
