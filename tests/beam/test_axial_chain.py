@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from beam.axial_chain import GRAVITY, AxialChain, _exponential, led_motion
+from beam.axial_chain import GRAVITY, AxialChain, led_motion
+from beam.axial_chain_step import exponential
 from geometry.errors import InputError
 
 CABLE = AxialChain(length=40.0, EA=4e5, mass=4.6, friction=0.35, tail_tension=800.0, inclination=0.1, presliding=3e-4)
@@ -194,7 +195,7 @@ def test_energies_are_counted_where_they_are_asked_for():
 
 def test_the_series_of_the_falling_friction():
     """exp(x) for |x| < 1/16 to 1e-12."""
-    series = getattr(_exponential, "py_func", _exponential)
+    series = getattr(exponential, "py_func", exponential)
     for x in (-1 / 16, -0.01, 0.0, 0.03, 1 / 16):
         assert series(x) == pytest.approx(math.exp(x), rel=1e-12)
 
