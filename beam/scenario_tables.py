@@ -56,6 +56,13 @@ class Drive(Part):
     tooth_pitch: Annotated[Entry, quantity("m", 1e-4, 10.0)] | None = None
     chain_pockets: Annotated[Entry, quantity("1", 3, 100)] | None = None
     chain_radius: Annotated[Entry, quantity("m", 1e-3, 10.0)] | None = None
+    ripple_travel: Annotated[Entry, quantity("m", 1e-3, 10.0)] | None = None
+    ripple_cosine: Annotated[Entry, quantity("1", -0.9, 0.9)] | None = None
+    ripple_sine: Annotated[Entry, quantity("1", -0.9, 0.9)] | None = None
+    ripple_cosine_2: Annotated[Entry, quantity("1", -0.9, 0.9)] | None = None
+    ripple_sine_2: Annotated[Entry, quantity("1", -0.9, 0.9)] | None = None
+    play: Annotated[Entry, quantity("m", 0.0, 1.0)] | None = None
+    play_taken_up: Annotated[Entry, quantity("1", -1.0, 1.0)] | None = None
     tensioner_force: Annotated[Entry, quantity("N", -1e6, 1e6)] | None = None
     tensioner_stroke: Annotated[Entry, quantity("m", 1e-3, 100.0)] | None = None
     tensioner_damping: Annotated[Entry, quantity("N*s/m", 0.0, 1e9)] | None = None

@@ -6,11 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beam import read_scenario
 from effects import find
 from effects.effect import ActiveEffect, BenchPath
 from effects.effect_record import active_effect, effect_record, read_effects
 from geometry.errors import SpecError
 from helicable.commands import tow as command
+from helicable.found_effects import found_effects
 from helicable.main import main
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -63,7 +65,7 @@ def test_section_effects_reach_the_rod_and_the_change_is_shown(file, monkeypatch
     out = " ".join(capsys.readouterr().out.split())
     (law, section), (none, _) = laws
     assert none is None and law.section is section and [a.effect.name for a in law.active] == ["interlayer-friction"]
-    assert "left aside, because they do not act in the section: sensor-lag (bending)" in out
+    assert "left aside: sensor-lag (bending): it acts in a sensor." in out
     assert "1000.0 N" in out and "1100.0 N" in out and "+10.00 %" in out
 
 
@@ -107,15 +109,15 @@ def test_what_cannot_act_in_a_rod_is_refused_in_a_sentence(file, tmp_path):
     for text, words in (
         (
             json.dumps({"found": [effect_record(LAG)]}),
-            r"none of the effects that were found \(sensor-lag \(bending\)\)",
+            r"none of the effects that were found \(sensor-lag \(bending\): it acts in a sensor\)",
         ),
         ("{}", "this is not the JSON of `helicable explain`"),
         (json.dumps({"found": [{**effect_record(FRICTION), "form": "older"}]}), 'no form "older"'),
     ):
         other.write_text(text)
         with pytest.raises(SpecError, match=words):
-            command.section_effects(other)
+            found_effects([other]).into(read_scenario("intelligent-horizontal"))
     with pytest.raises(SpecError, match="cannot be read"):
-        command.section_effects(tmp_path / "none.json")
+        found_effects([tmp_path / "none.json"])
     with pytest.raises(SpecError, match="no record of an effect"):
         active_effect({"effect": "plasticity"})
