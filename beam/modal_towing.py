@@ -76,6 +76,8 @@ def modal_towing(
         raise SpecError(
             "modal bodies are towed round a smooth roller only: take an intelligent scenario without [roller]."
         )
+    if scenario.contact.friction_fall is not None or scenario.contact.drag is not None:
+        raise SpecError("modal bodies know Coulomb's friction only: leave out contact.friction_fall and contact.drag.")
     C = np.asarray(section.C, dtype=float).diagonal()
     length = scenario.cable.length.value
     l, EI = length / count, float(C[4])
