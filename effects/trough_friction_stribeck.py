@@ -15,6 +15,7 @@ from collections.abc import Callable, Sequence
 from effects.effect import BenchPath, Effect, Form, Parameter
 from effects.towed_cable import TowedCable, largest_speed, of_speed
 from effects.towed_scenario import TowedScenario, si
+from geometry.errors import SpecError
 
 
 def _law(power: float) -> Callable[..., TowedCable]:
@@ -26,6 +27,8 @@ def _law(power: float) -> Callable[..., TowedCable]:
 
 def _trough(power: float) -> Callable[..., TowedScenario]:
     def act(towed: TowedScenario, strength: Sequence[float], fall_speed: float) -> TowedScenario:
+        if towed.scenario.contact.friction_fall is not None:
+            raise SpecError("the scenario has a contact.friction_fall already; leave it out, or the effect")
         fall, nominal = float(strength[0]), towed.scenario.contact.friction.value
         fast = towed.calibrated.get("friction coefficient", nominal)
         told = "" if fast == nominal else f"; contact.friction {nominal:.3g} -> {fast:.3g}, calibrated beside it"

@@ -20,9 +20,9 @@ def _act(cable: TowedCable, strength: Sequence[float]) -> TowedCable:
 
 
 def _trough(towed: TowedScenario, strength: Sequence[float]) -> TowedScenario:
-    entry = towed.scenario.entries().get("contact.drag")
+    entry = towed.scenario.contact.drag
     drag = float(strength[0]) + (0.0 if entry is None else entry.value)
-    return towed.changed(f"viscous-drag: contact.drag {drag:.4g} N s/m^2", contact__drag=si(drag, "N*s/m^2"))
+    return towed.changed(f"viscous-drag: contact.drag {drag:.4g} N s/m^2", contact__drag=si(drag, "N s/m^2"))
 
 
 EFFECT = Effect(

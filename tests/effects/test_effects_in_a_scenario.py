@@ -6,12 +6,15 @@ import numpy as np
 import pytest
 
 from beam import read_scenario
+from beam.axial_chain import AxialChain
+from beam.towing_model import trough_law
 from effects import find, library
 from effects.effect import ActiveEffect
 from effects.towed_cable import TowedCable
 from effects.towed_scenario import changed_by
 
 SCENARIO = read_scenario("intelligent-horizontal").changed(cable__elements=100)
+TIME = np.linspace(0.0, 1.0, 11)
 THERE_AND_BACK = {
     "time": ["0 s", "1 s", "4 s", "6 s", "9 s", "10 s"],
     "speed": ["0 m/s", "0.1 m/s", "0.1 m/s", "-0.1 m/s", "-0.1 m/s", "0 m/s"],
@@ -47,6 +50,24 @@ def test_added_load_is_mass_per_length():
     assert all_of_it.cable == loaded.cable
     assert "from 2 to 5 m" in refused(SCENARIO, active("added-load", (1.5,), (2.0, 5.0), form=1))
     assert "outside what can be computed" in refused(SCENARIO, active("added-load", (-7.0,)))
+
+
+@pytest.mark.parametrize("form", [0, 1, 2])
+def test_friction_of_the_trough_falls_with_speed_as_that_of_the_chain(form):
+    """mu(v) of trough and deck is the chain's at every speed, with the friction at high speed that was calibrated beside it."""
+    effect = active("trough-friction-stribeck", (0.12,), (0.04,), form)
+    chain = effect.form.respond(TowedCable(AxialChain(30.0, 4e5, 4.6, 0.22), TIME, 0 * TIME), (0.12,), 0.04).chain
+    law = trough_law(carried(SCENARIO, effect, friction_coefficient=0.22))
+    for v in (0.0, 0.02, 0.04, 0.1, 1.0):
+        assert law.coefficient(v) == pytest.approx(0.22 + chain.excess(v), rel=1e-12)
+    assert trough_law(carried(SCENARIO, effect)).friction == 0.3  # that of the scenario, where nothing was calibrated
+    assert "already" in refused(carried(SCENARIO, effect), effect)
+
+
+def test_drag_of_the_trough_is_resistance_per_length_and_speed_beside_what_is_there():
+    assert trough_law(carried(SCENARIO, active("viscous-drag", (5.0,)))).drag == pytest.approx(5.0, rel=1e-12)
+    muddy = SCENARIO.changed(contact__drag="2 N s/m^2")
+    assert trough_law(carried(muddy, active("viscous-drag", (5.0,)))).drag == pytest.approx(7.0, rel=1e-12)
 
 
 def test_roller_resistance_is_a_capstan_of_the_same_loss():
