@@ -110,7 +110,10 @@ def test_damping_of_the_bench_raises_the_pull_of_the_rod(tmp_path):
 
 
 def test_bench_and_face_act_together_in_one_command(tmp_path, capsys):
-    """A law of the section, a drag and a mass: each is told, the pull rises by at least drag x speed x moving length."""
+    """A law of the section, a drag and a mass: each is told, and the pull rises by a part of drag x speed x length.
+
+    The rest goes off the tension at the bend: the taut cable is held between two ends whose motion is given.
+    """
     drag, load, polygon = (find(name) for name in ("viscous-drag", "added-load", "polygon-effect"))
     towing = [
         ActiveEffect(drag, drag.forms[0], "towing", strength=(200.0,)),
@@ -135,8 +138,7 @@ def test_bench_and_face_act_together_in_one_command(tmp_path, capsys):
     )
     assert len(record["effects"]["changes"]) == 3 and len(record["effects"]["aside"]) == 2
     rise = record["pull_force_plateau"] - record["without_effects"]["pull_force_plateau"]
-    upper, speed = 7.0, 6.86 / 60
-    assert rise > 200.0 * speed * upper
+    assert 0.5 < rise / (200.0 * 6.86 / 60 * 7.4) < 1.0  # drag x speed x upper strand
 
 
 def test_what_cannot_act_in_a_rod_is_refused_in_a_sentence(file, tmp_path):
