@@ -15,6 +15,7 @@ from beam.compiled import kernel
 from beam.contact_force import bristle, gap_and_normal
 from beam.relative_motion import POSE, moment_to_theta, pose
 from beam.rigid_body import STEP
+from beam.sliding_friction import friction_coefficient
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -29,6 +30,15 @@ class BodyPoints(NamedTuple):
 
 
 @kernel
+def sliding_velocity(p: Array, P: Array, n0: float, n1: float, n2: float) -> tuple[float, float, float]:
+    """Velocity of the point of the pose `P` along the surface and relative to it."""
+    u0, u1 = P[6] - p[13] + p[23] * (P[4] - p[11]), P[7] - p[14] - p[23] * (P[3] - p[10])
+    u2 = P[8] - p[15]
+    along = n0 * u0 + n1 * u1 + n2 * u2
+    return u0 - along * n0, u1 - along * n1, u2 - along * n2
+
+
+@kernel
 def body_point(p: Array, w: float, P: Array, anchor: Array, moved: Array, report: Array, force: Array) -> bool:
     """Force of the surface `p` on the point of the pose `P` into `force` (3,); anchor to commit into `moved` (3,)."""
     x0, x1, x2 = P[3], P[4], P[5]
@@ -40,10 +50,16 @@ def body_point(p: Array, w: float, P: Array, anchor: Array, moved: Array, report
     u0, u1, u2 = P[6] - w0, P[7] - w1, P[8] - p[15]
     closing = -(n0 * u0 + n1 * u1 + n2 * u2)
     fn = max(p[1] * gap + p[2] * closing, 0.0)
-    t0, t1, t2 = 0.0, 0.0, 0.0
+    t0, t1, t2, d0, d1, d2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     moved[0] = np.nan
-    if p[3] > 0.0:
-        limit = p[3] * fn
+    mu = p[3]
+    if p[26] > 0.0 or p[29] > 0.0:
+        s0, s1, s2 = sliding_velocity(p, P, n0, n1, n2)
+        mu = friction_coefficient(p, np.sqrt(s0 * s0 + s1 * s1 + s2 * s2))
+        d0, d1, d2 = -w * p[29] * s0, -w * p[29] * s1, -w * p[29] * s2
+        report[3] -= d0 * s0 + d1 * s1 + d2 * s2
+    if mu > 0.0:
+        limit = mu * fn
         y0, y1, y2 = x0 - p[10], x1 - p[11], x2 - p[12]
         a0, a1, a2 = anchor[0] * p[24] - anchor[1] * p[25], anchor[0] * p[25] + anchor[1] * p[24], anchor[2]
         if anchor[0] != anchor[0]:
@@ -60,6 +76,7 @@ def body_point(p: Array, w: float, P: Array, anchor: Array, moved: Array, report
     report[0] += w * 0.5 * p[1] * gap * gap
     report[2] += w * (fn - p[1] * gap) * closing
     force[0], force[1], force[2] = w * (fn * n0 + t0), w * (fn * n1 + t1), w * (fn * n2 + t2)
+    force[0], force[1], force[2] = force[0] + d0, force[1] + d1, force[2] + d2
     report[4] += force[0] * w0 + force[1] * w1 + force[2] * p[15]
     report[5] = max(report[5], gap)
     return True
@@ -80,7 +97,7 @@ def body_contacts(  # noqa: C901 - loops over components
     S: Array, points: BodyPoints, q: Array, v: Array, anchors: Array, moved: Array, begin: int, F: Array,
     reports: Array, on_body: Array, first_row: int, want_tangent: bool, factor: float, D: Array,
 ) -> None:  # fmt: skip
-    """Subtract the contact forces of the surfaces `S` (surfaces, 26) on the points from `F`; add the tangent to `D`.
+    """Subtract the contact forces of the surfaces `S` (surfaces, 30) on the points from `F`; add the tangent to `D`.
 
     Anchors of surface k and point j are in row `begin` + k points + j; `on_body` (bodies, 3) sums the forces.
     """

@@ -11,7 +11,8 @@ The bristle b is elastic, so that stick is exact: below the limit nothing creeps
 follows such that it is mu f_n, and this b enters t*. What loses energy is then never negative, because t is the projection
 of t* on a ball that -k_t b lies in. The damping alone never moves the anchor: if it did, every jolt would strain the
 bristle, and a slip front would run ahead the further, the longer the time steps are. Anchors are committed at the end of
-a converged step only, never inside an iteration. The tangent is the derivative of this return map.
+a converged step only, never inside an iteration. The tangent is the derivative of this return map. mu may fall with the
+sliding speed, and a drag may come to t, see :mod:`beam.sliding_friction`.
 
 Source: J. C. Simo, T. A. Laursen, Comput. Struct. 42 (1992) 97-116, doi 10.1016/0045-7949(92)90540-G.
 """
@@ -23,13 +24,14 @@ from numpy.typing import NDArray
 
 from beam.compiled import embedded, kernel
 from beam.hermite import hermite_values
+from beam.sliding_friction import coefficient_slope, friction_coefficient
 
 Array = NDArray[np.float64]
 
 PLANE, CYLINDER = 0.0, 1.0
-PARAMETERS = 26
+PARAMETERS = 30
 """kind, kn, cn, mu, kt, ct, normal (6:9), offset, centre (10:13), its velocity (13:16), radius, box low (17:20), high (20:23),
-turning about z: angular velocity, cosine and sine of the angle."""
+turning about z: angular velocity, cosine and sine of the angle; (26:30) as of :mod:`beam.sliding_friction`."""
 
 
 @kernel
@@ -55,9 +57,11 @@ def normal_tangent(n: Array, slope: float, curvature: float, K: Array) -> None:
 
 @kernel
 def friction_tangent(
-    n: Array, b: Array, trial: Array, slid: bool, limit: float, kt: float, damping: float, coupling: float, K: Array
-) -> None:
-    """Add the derivative of the return map: `damping` = ct factor, `coupling` = mu d(f_n)/d(gap); `b` as it was before its return."""
+    n: Array, b: Array, trial: Array, slid: bool, limit: float, kt: float, damping: float, coupling: float, fade: Array,
+    K: Array,
+) -> None:  # fmt: skip
+    """Add the derivative of the return map: `damping` = ct factor, `coupling` = mu d(f_n)/d(gap), `fade` (3,) = -f_n d(mu)/dx;
+    `b` as it was before its return."""
     reach = np.sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2])
     size = np.sqrt(trial[0] * trial[0] + trial[1] * trial[1] + trial[2] * trial[2])
     column = np.empty(3)
@@ -69,11 +73,13 @@ def friction_tangent(
             if slid:
                 column[i] = limit / reach * (across - b[i] * b[j] / (reach * reach)) + damping * across
                 column[i] -= coupling * b[i] / reach * n[j]
+                column[i] -= fade[j] * b[i] / reach
             along += trial[i] * column[i]
         for i in range(3):
             if size > limit:
                 column[i] = limit / size * (column[i] - trial[i] * along / (size * size))
                 column[i] += coupling * trial[i] / size * n[j]
+                column[i] += fade[j] * trial[i] / size
             K[i, j] += column[i]
 
 
@@ -117,11 +123,12 @@ def out_of_reach(p: Array, q: Array, e: int, length: float) -> bool:
 @embedded
 def point_contact(
     p: Array, e: int, g: int, j: int, q: Array, v: Array, N: Array, anchors: Array, moved: Array, report: Array,
-    weight: float,
-) -> tuple[float, float, float, float, float, float, float, float]:  # fmt: skip
-    """One contact point: f_n, normal, friction, distance from the axis; adds to `report`.
+    weight: float, drag: Array,
+) -> tuple[float, float, float, float, float, float, float, float, float]:  # fmt: skip
+    """One contact point: f_n, normal, friction, distance from the axis, mu; adds to `report`.
 
-    Writes the anchor to commit (`moved`, relative to the surface's centre, turning with it). f_n is -1 without contact.
+    Writes the anchor to commit (`moved`, relative to the surface's centre, turning with it) and, where the surface has one, the
+    `drag` (3,), which the friction does not contain. f_n is -1 without contact.
     """
     N0, N1, N2, N3 = N[g, 0], N[g, 1], N[g, 2], N[g, 3]
     x0 = (N0 * q[e, 0] + N1 * q[e, 3]) + (N2 * q[e + 1, 0] + N3 * q[e + 1, 3])
@@ -130,7 +137,7 @@ def point_contact(
     gap, distance, n0, n1, n2 = gap_and_normal(p, x0, x1, x2)
     if gap <= 0.0:
         moved[j, 0] = np.nan
-        return -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        return -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     w0, w1 = p[13] - p[23] * (x1 - p[11]), p[14] + p[23] * (x0 - p[10])
     u0 = (N0 * v[e, 0] + N1 * v[e, 3]) + (N2 * v[e + 1, 0] + N3 * v[e + 1, 3]) - w0
     u1 = (N0 * v[e, 1] + N1 * v[e, 4]) + (N2 * v[e + 1, 1] + N3 * v[e + 1, 4]) - w1
@@ -139,9 +146,15 @@ def point_contact(
     fn = max(p[1] * gap + p[2] * closing, 0.0)
     report[0] += weight * 0.5 * p[1] * gap * gap
     report[2] += weight * (fn - p[1] * gap) * closing
-    t0, t1, t2 = 0.0, 0.0, 0.0
-    if p[3] > 0.0:
-        limit = p[3] * fn
+    t0, t1, t2, mu = 0.0, 0.0, 0.0, p[3]
+    if p[26] > 0.0 or p[29] > 0.0:
+        s0, s1, s2 = u0 + closing * n0, u1 + closing * n1, u2 + closing * n2
+        mu = friction_coefficient(p, np.sqrt(s0 * s0 + s1 * s1 + s2 * s2))
+        drag[0], drag[1], drag[2] = -p[29] * s0, -p[29] * s1, -p[29] * s2
+        report[3] += weight * p[29] * (s0 * s0 + s1 * s1 + s2 * s2)
+        report[4] += weight * (drag[0] * w0 + drag[1] * w1 + drag[2] * p[15])
+    if mu > 0.0:
+        limit = mu * fn
         y0, y1, y2 = x0 - p[10], x1 - p[11], x2 - p[12]
         a0, a1, a2 = (
             anchors[j, 0] * p[24] - anchors[j, 1] * p[25],
@@ -166,7 +179,7 @@ def point_contact(
     report[4] += weight * (f0 * w0 + f1 * w1 + f2 * p[15])
     if gap > report[5]:
         report[5], report[6] = gap, e
-    return fn, n0, n1, n2, t0, t1, t2, distance
+    return fn, n0, n1, n2, t0, t1, t2, distance, mu
 
 
 @embedded
@@ -177,9 +190,9 @@ def point_tangent(
     """Write the stiffness K = -d(force)/dx - factor d(force)/dv of a point in contact; `n` (3,) is its normal."""
     slope = p[1] + p[2] * factor if fn > 0.0 else 0.0
     normal_tangent(n, slope, fn / distance, K)
-    if p[3] == 0.0:
+    if p[3] == 0.0 and p[26] == 0.0 and p[29] == 0.0:
         return
-    x, u = np.zeros(3), np.zeros(3)
+    x, u, fade = np.zeros(3), np.zeros(3), np.zeros(3)
     for i in range(3):
         for k in range(4):
             x[i] += N[g, k] * q[e + k // 2, 3 * (k % 2) + i]
@@ -189,6 +202,9 @@ def point_tangent(
     u[0] += p[23] * x[1]
     u[1] -= p[23] * x[0]
     closing = -(n[0] * u[0] + n[1] * u[1] + n[2] * u[2])
+    mu = speed_tangent(p, u, n, closing, fn, factor, fade, K)
+    if mu == 0.0:
+        return
     a0, a1, a2 = (
         anchors[j, 0] * p[24] - anchors[j, 1] * p[25],
         anchors[j, 0] * p[25] + anchors[j, 1] * p[24],
@@ -197,14 +213,34 @@ def point_tangent(
     if a0 != a0:
         a0, a1, a2 = x[0], x[1], x[2]
     _, _, _, t0, t1, t2, slid = bristle(
-        p, x[0], x[1], x[2], a0, a1, a2, u[0], u[1], u[2], n[0], n[1], n[2], closing, p[3] * fn
+        p, x[0], x[1], x[2], a0, a1, a2, u[0], u[1], u[2], n[0], n[1], n[2], closing, mu * fn
     )  # fmt: skip
     trial[0], trial[1], trial[2] = t0, t1, t2
     x[0], x[1], x[2] = x[0] - a0, x[1] - a1, x[2] - a2
     along = n[0] * x[0] + n[1] * x[1] + n[2] * x[2]
     for i in range(3):
         x[i] -= along * n[i]
-    friction_tangent(n, x, trial, slid, p[3] * fn, p[4], p[5] * factor, p[3] * slope, K)
+    friction_tangent(n, x, trial, slid, mu * fn, p[4], p[5] * factor, mu * slope, fade, K)
+
+
+@kernel
+def speed_tangent(
+    p: Array, u: Array, n: Array, closing: float, fn: float, factor: float, fade: Array, K: Array
+) -> float:
+    """mu at the velocity `u`; writes what its fall does to the limit into `fade`, see :func:`friction_tangent`, adds the drag to K."""
+    if p[26] == 0.0 and p[29] == 0.0:
+        return p[3]
+    total = 0.0
+    for i in range(3):
+        fade[i] = u[i] + closing * n[i]
+        total += fade[i] * fade[i]
+    speed = np.sqrt(total)
+    change = -fn * coefficient_slope(p, speed) * factor / max(speed, 1e-300)
+    for i in range(3):
+        fade[i] *= change
+        for j in range(3):
+            K[i, j] += p[29] * factor * ((1.0 if i == j else 0.0) - n[i] * n[j])
+    return friction_coefficient(p, speed)
 
 
 @kernel
@@ -229,6 +265,7 @@ def contact_force(  # noqa: C901 - loops over components
     power lost in normal damping, power of friction, power of the moving surface, deepest penetration, its element.
     """
     N, n, trial, K, at = np.empty((xs.size, 4)), np.empty(3), np.empty(3), np.zeros((3, 3)), -1.0
+    d = np.zeros(3)
     for i in range(7):
         report[i] = 0.0
     for e in range(lengths.size):
@@ -242,12 +279,13 @@ def contact_force(  # noqa: C901 - loops over components
             shapes_at(xs, at, N)
         for g in range(xs.size):
             weight = ws[g] * at
-            fn, n0, n1, n2, t0, t1, t2, distance = point_contact(
-                p, e, g, j0 + g, q, v, N, anchors, moved, report, weight
+            fn, n0, n1, n2, t0, t1, t2, distance, mu = point_contact(
+                p, e, g, j0 + g, q, v, N, anchors, moved, report, weight, d
             )  # fmt: skip
             if fn < 0.0:
                 continue
             f0, f1, f2 = weight * (fn * n0 + t0), weight * (fn * n1 + t1), weight * (fn * n2 + t2)
+            f0, f1, f2 = f0 + weight * d[0], f1 + weight * d[1], f2 + weight * d[2]
             for k in range(4):
                 row, slot, part = e + k // 2, 3 * (k % 2), N[g, k]
                 F[row, slot] -= part * f0
@@ -255,7 +293,7 @@ def contact_force(  # noqa: C901 - loops over components
                 F[row, slot + 2] -= part * f2
             if collect:
                 n[0], n[1], n[2], trial[0], trial[1], trial[2] = f0, f1, f2, weight * t0, weight * t1, weight * t2
-                collect_point(e, j0 + g, xs[g], n, trial, p[3] * fn * weight, nodal, friction, cone)
+                collect_point(e, j0 + g, xs[g], n, trial, mu * fn * weight, nodal, friction, cone)
             if want_tangent:
                 n[0], n[1], n[2] = n0, n1, n2
                 point_tangent(p, e, g, j0 + g, q, v, N, anchors, n, distance, fn, factor, trial, K)
@@ -282,7 +320,7 @@ def contact_forces(
     F: Array, nodal: Array, friction: Array, reports: Array, cone: Array, collect: bool,
     want_tangent: bool, factor: float, D: Array, U: Array, L: Array,
 ) -> None:  # fmt: skip
-    """:func:`contact_force` of all surfaces: parameters `P` (surfaces, 26), contact points of surface k from `first`[k] on.
+    """:func:`contact_force` of all surfaces: parameters `P` (surfaces, 30), contact points of surface k from `first`[k] on.
 
     `anchors`, `moved` (n points, 3) and `cone` (n points,) hold the surfaces one after the other; `reports` (surfaces, 7).
     """

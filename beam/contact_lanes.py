@@ -11,25 +11,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beam.compiled import embedded, kernel
-from beam.contact_force import PLANE, out_of_reach
+from beam.contact_force import PLANE, gap_and_normal, out_of_reach
 from beam.hermite import hermite_values
 from beam.point_force import LANES, ROW, add, put, value
+from beam.sliding_friction import friction_coefficient
 
 Array = NDArray[np.float64]
 
-LENGTH, ANCHOR, MOVED, NODAL, REPORT, DEPTH, END = (12 * ROW + LANES * k for k in (0, 1, 4, 7, 19, 24, 26))
+LENGTH, ANCHOR, MOVED, NODAL, REPORT, DEPTH, FRICTION, END = (
+    12 * ROW + LANES * k for k in (0, 1, 4, 7, 19, 24, 26, 27)
+)
 """Where in the work array, after positions, slopes and their velocities of the nodes: length, anchors before and after, forces
-on both nodes, five sums, penetration and its element."""
+on both nodes, five sums, penetration and its element, friction coefficient."""
 
 
 @kernel
 def point_contacts(W: Array, p: Array, N: Array, w: float, begin: float) -> None:  # noqa: PLR0915 - the formulas written out
     """One contact point of weight `w` on each of the eight elements from `begin` on; `N` (4,) shapes for length one."""
     h0, h1, h2, h3, plane = N[0], N[1], N[2], N[3], p[0] == PLANE
-    kn, cn, mu, kt, ct, k0, k1, k2, offset = p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9]
+    kn, cn, kt, ct, k0, k1, k2, offset = p[1], p[2], p[4], p[5], p[6], p[7], p[8], p[9]
     c0, c1, c2, s0, s1, s2, radius, spin = p[10], p[11], p[12], p[13], p[14], p[15], p[16], p[23]
     low0, low1, low2, high0, high1, high2, cosine, sine = p[17], p[18], p[19], p[20], p[21], p[22], p[24], p[25]
-    rubs = mu > 0.0
+    rubs = p[3] + p[26] > 0.0
     for l in range(LANES):
         n1, n3 = h1 * W[LENGTH + l], h3 * W[LENGTH + l]
         x0, x1, x2 = value(W, l, h0, n1, h2, n3)
@@ -55,7 +58,7 @@ def point_contacts(W: Array, p: Array, N: Array, w: float, begin: float) -> None
         a2 = a2 if held else y2
         along = m0 * (y0 - a0) + m1 * (y1 - a1) + m2 * (y2 - a2)
         b0, b1, b2 = y0 - a0 - along * m0, y1 - a1 - along * m1, y2 - a2 - along * m2
-        elastic, limit = kt * np.sqrt(b0 * b0 + b1 * b1 + b2 * b2), mu * fn
+        elastic, limit = kt * np.sqrt(b0 * b0 + b1 * b1 + b2 * b2), W[FRICTION + l] * fn
         slid = elastic > limit
         scale = limit / elastic if slid else 1.0
         b0, b1, b2 = scale * b0, scale * b1, scale * b2
@@ -80,6 +83,31 @@ def point_contacts(W: Array, p: Array, N: Array, w: float, begin: float) -> None
         add(W, NODAL + 24 + l, -weight * n1, f0, f1, f2)
         add(W, NODAL + 48 + l, -weight * h2, f0, f1, f2)
         add(W, NODAL + 72 + l, -weight * n3, f0, f1, f2)
+
+
+@kernel
+def sliding(W: Array, p: Array, N: Array, w: float) -> None:
+    """Before :func:`point_contacts`, where the surface asks for the speed: friction coefficient of every lane, and the drag."""
+    for l in range(LANES):
+        h0, h1, h2, h3, length = N[0], N[1], N[2], N[3], W[LENGTH + l]
+        x0, x1, x2 = value(W, l, h0, h1 * length, h2, h3 * length)
+        gap, _, m0, m1, m2 = gap_and_normal(p, x0, x1, x2)
+        W[FRICTION + l] = p[3] + p[26]
+        if not gap > 0.0:
+            continue
+        z0, z1 = p[13] - p[23] * (x1 - p[11]), p[14] + p[23] * (x0 - p[10])
+        u0, u1, u2 = value(W, l + 6 * ROW, h0, h1 * length, h2, h3 * length)
+        u0, u1, u2 = u0 - z0, u1 - z1, u2 - p[15]
+        along = m0 * u0 + m1 * u1 + m2 * u2
+        u0, u1, u2 = u0 - along * m0, u1 - along * m1, u2 - along * m2
+        square, f = u0 * u0 + u1 * u1 + u2 * u2, -w * length * p[29]
+        W[FRICTION + l] = friction_coefficient(p, np.sqrt(square))
+        W[REPORT + 24 + l] -= f * square
+        W[REPORT + 32 + l] += f * (u0 * z0 + u1 * z1 + u2 * p[15])
+        add(W, NODAL + l, -h0, f * u0, f * u1, f * u2)
+        add(W, NODAL + 24 + l, -h1 * length, f * u0, f * u1, f * u2)
+        add(W, NODAL + 48 + l, -h2, f * u0, f * u1, f * u2)
+        add(W, NODAL + 72 + l, -h3 * length, f * u0, f * u1, f * u2)
 
 
 @embedded
@@ -111,10 +139,14 @@ def surface_contacts(
     points = ws.size
     for i in range(REPORT, END):
         W[i] = 0.0
+    for l in range(LANES):
+        W[FRICTION + l] = p[3]
     for g in range(points):
         for l in range(count):
             j = row + l * points + g
             put(W, ANCHOR + l, anchors[j, 0], anchors[j, 1], anchors[j, 2])
+        if p[26] > 0.0 or p[29] > 0.0:
+            sliding(W, p, N[g], ws[g])
         point_contacts(W, p, N[g], ws[g], float(begin))
         for l in range(count):
             j = row + l * points + g

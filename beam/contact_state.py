@@ -2,7 +2,7 @@ r"""What every contact point does at one instant: gap, normal force, friction, s
 
 With the penetration g, the force per length f_n, t of :mod:`beam.contact_force` and the weight w of a point (its length of cable),
 
-.. math:: \text{gap} = -g, \qquad N = w f_n, \qquad T = w\,|t|, \qquad \text{use} = T / (\mu N) \le 1 .
+.. math:: \text{gap} = -g, \qquad N = w f_n, \qquad T = w\,|t|, \qquad \text{use} = T / (\mu(v) N) \le 1 .
 
 A point slips where its use is one; a point without friction (mu = 0) slips, too. Sums are of magnitudes, so that
 T <= mu N holds for an element and for a surface as it does for a point.
@@ -29,8 +29,9 @@ SLIPS = 1.0 - 1e-9
 def contact_table(
     p: Array, q: Array, v: Array, lengths: Array, xs: Array, ws: Array, anchors: Array, table: Array
 ) -> None:  # fmt: skip
-    """Write penetration (NaN outside the surface's box), N, friction (3 numbers) and force (3) of every point of a surface."""
+    """Write penetration (NaN outside the surface's box), N, friction (3 numbers), force (3) and mu of every point of a surface."""
     N, moved, report, at = np.empty((xs.size, 4)), np.empty_like(anchors), np.zeros(16), -1.0
+    d = np.zeros(3)
     for e in range(lengths.size):
         if lengths[e] != at:
             at = lengths[e]
@@ -46,10 +47,16 @@ def contact_table(
             table[j, 0] = depth if a0 != 0.0 or a1 != 0.0 or a2 != 0.0 else np.nan
             if depth <= 0.0:
                 continue
-            fn, n0, n1, n2, t0, t1, t2, _ = point_contact(p, e, g, j, q, v, N, anchors, moved, report, w)
+            fn, n0, n1, n2, t0, t1, t2, _, mu = point_contact(p, e, g, j, q, v, N, anchors, moved, report, w, d)
             table[j, 1] = w * fn
             table[j, 2], table[j, 3], table[j, 4] = w * t0, w * t1, w * t2
             table[j, 5], table[j, 6], table[j, 7] = w * (fn * n0 + t0), w * (fn * n1 + t1), w * (fn * n2 + t2)
+            table[j, 5], table[j, 6], table[j, 7] = (
+                table[j, 5] + w * d[0],
+                table[j, 6] + w * d[1],
+                table[j, 7] + w * d[2],
+            )
+            table[j, 8] = mu
 
 
 @dataclass(frozen=True)
@@ -61,7 +68,7 @@ class ContactState:
     gap : (n, points) array
         Distance from the surface [m], negative where the point has gone into it; NaN outside the surface's extent.
     normal, friction : (n, points) array
-        Forces on the cable [N], magnitudes.
+        Forces on the cable [N], magnitudes; a drag is not in the friction.
     force : (n, points, 3) array
         Force on the cable [N], global axes.
     use : (n, points) array
@@ -125,13 +132,13 @@ def contact_states(
     P = model.surface_parameters(t, turned=turned)
     for k, (p, anchor) in enumerate(zip(P, anchors[: len(P)], strict=True)):
         i, j = model.first[k], model.first[k + 1]
-        table = np.empty((lengths.size * (j - i), 8))
+        table = np.empty((lengths.size * (j - i), 9))
         contact_table(
             p, q, v, lengths, model.xs[i:j], model.ws[i:j], np.ascontiguousarray(anchor).reshape(-1, 3), table
         )
-        table = table.reshape(lengths.size, j - i, 8)
+        table = table.reshape(lengths.size, j - i, 9)
         normal, friction = table[..., 1], np.linalg.norm(table[..., 2:5], axis=2)
-        limit = model.surfaces[k].law.friction * normal
+        limit = table[..., 8] * normal
         use = np.divide(friction, limit, out=(normal > 0).astype(float), where=limit > 0)
         out.append(ContactState(-table[..., 0], normal, friction, table[..., 5:8], use))
     return out

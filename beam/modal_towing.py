@@ -76,6 +76,8 @@ def modal_towing(
         raise SpecError(
             "modal bodies are towed round a smooth roller only: take an intelligent scenario without [roller]."
         )
+    if scenario.contact.friction_fall is not None or scenario.contact.drag is not None:
+        raise SpecError("modal bodies know Coulomb's friction only: leave out contact.friction_fall and contact.drag.")
     C = np.asarray(section.C, dtype=float).diagonal()
     length = scenario.cable.length.value
     l, EI = length / count, float(C[4])
@@ -87,8 +89,10 @@ def modal_towing(
     X[:, :2], X[:, 2] = pins[:-1, :2], turns
     end = np.array([pins[-1, 0], pins[-1, 1], directions[-1]])
 
+    towed_end = scenario.pull
+
     def hold(t: float) -> tuple[Array, Array]:
-        u, du, _ = scenario.pull(t)
+        u, du, _ = towed_end(t)
         first = np.array([0.0, 0.0, directions[0], 0.0, 0.0, 0.0])
         return first, np.array([end[0] + u[0], end[1], end[2], du[0], 0.0, 0.0])
 

@@ -21,6 +21,7 @@ from beam.joint import KINDS, SCALE, Joint
 from beam.relative_motion import inverse_turn
 from beam.rigid_body import RigidBody, body_inertia, body_inertia_tangent
 from beam.rotation_vector import rotation_matrix
+from beam.sliding_friction import FALL
 from beam.surface import FreeTurn, Surface
 from geometry.errors import SpecError
 
@@ -277,12 +278,12 @@ class Multibody:
         return u, du
 
     def surface_parameters(self, t: float, friction: bool = True) -> Array:
-        """What the contact kernel reads of the surfaces that bodies touch, (surfaces, 26)."""
+        """What the contact kernel reads of the surfaces that bodies touch, (surfaces, 30)."""
         P = np.empty((len(self.surfaces), PARAMETERS))
         for row, surface in zip(P, self.surfaces, strict=True):
             row[:] = surface.parameters(t)
         if not friction:
-            P[:, 3] = 0.0
+            P[:, 3] = P[:, FALL] = 0.0
         return P
 
     def add_forces(

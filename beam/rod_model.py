@@ -29,6 +29,7 @@ from beam.section_memory import (
     section_force_tangent,
     strains,
 )
+from beam.sliding_friction import FALL
 from beam.support import Support
 from beam.surface import FreeTurn, Surface, turn_surface
 from geometry.errors import SpecError
@@ -214,12 +215,12 @@ class RodModel:
         return values
 
     def surface_parameters(self, t: float, friction: bool = True, turned: Array | None = None) -> Array:
-        """What the contact kernel reads of the surfaces at time `t`, (surfaces, 26); `turned` (free rollers, 2) angle, speed."""
+        """What the contact kernel reads of the surfaces at time `t`, (surfaces, 30); `turned` (free rollers, 2) angle, speed."""
         P = np.empty((len(self.surfaces), PARAMETERS))
         for row, surface in zip(P, self.surfaces, strict=True):
             row[:] = surface.parameters(t)
         if not friction:
-            P[:, 3] = 0.0
+            P[:, 3] = P[:, FALL] = 0.0
         if turned is not None:
             for k, (angle, speed) in zip(self.free_rollers, turned, strict=True):
                 turn_surface(P[k], angle, speed)

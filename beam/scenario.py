@@ -28,7 +28,7 @@ from beam.scenario_tables import (
     Walls,
 )
 from beam.surface import Travel
-from beam.towing_drive import shearer_motion, trolley_motion
+from beam.towing_drive import shearer_motion, trolley_motion, with_play
 from beam.towing_path import Pieces, bend_pieces
 from geometry.errors import SpecError
 from homogenize.section_stiffness import SectionInertia, SectionStiffness
@@ -111,14 +111,15 @@ class Scenario(Part):
 
     @property
     def pull(self) -> Travel:
-        """Motion of the shearer, or of the plate."""
+        """Motion of the towed end: that of the shearer, or of the plate, behind its play."""
         drive, machine = self.drive, self.machine
         if machine is not None:
             ramp = drive.ramp_end.value - drive.ramp_start.value
-            return ReciprocatingStroke(
+            strokes = ReciprocatingStroke(
                 machine.stroke.value, drive.speed.value, ramp, machine.pause.value, drive.ramp_start.value
             )
-        return shearer_motion(self)
+            return with_play(self, strokes)
+        return with_play(self, shearer_motion(self))
 
     @property
     def trolley(self) -> Travel:

@@ -31,6 +31,7 @@ def first_fault(scenario: Scenario) -> str:
         _stroke_fault,
         _mesh_fault,
         _roller_fault,
+        _friction_fault,
         _clamp_fault,
     )
     return next((fault for check in checks if (fault := check(scenario))), "")
@@ -127,6 +128,20 @@ def _roller_fault(scenario: Scenario) -> str:
         return "a roller with a bearing moment turns freely otherwise: add roller.inertia."
     if roller.inertia is not None and scenario.has_clamps:
         return 'a roller with inertia can be turned by the bare cable only: leave out roller.inertia, or take chain = "smeared".'
+    return ""
+
+
+def _friction_fault(scenario: Scenario) -> str:
+    contact = scenario.contact
+    fall, speed, power = contact.friction_fall, contact.fall_speed, contact.fall_power
+    if fall is None and (speed is not None or power is not None):
+        return "contact.fall_speed and contact.fall_power say how friction falls: add contact.friction_fall, or leave them out."
+    if fall is not None and fall.value > 0 and speed is None:
+        return (
+            "friction that falls by contact.friction_fall needs the speed over which it does: add contact.fall_speed."
+        )
+    if power is not None and power.value not in (0.0, 1.0, 2.0):
+        return f"contact.fall_power is {power.value:g}; take 1 (exponential), 2 (Gaussian) or 0 (rational)."
     return ""
 
 

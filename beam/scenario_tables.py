@@ -56,6 +56,13 @@ class Drive(Part):
     tooth_pitch: Annotated[Entry, quantity("m", 1e-4, 10.0)] | None = None
     chain_pockets: Annotated[Entry, quantity("1", 3, 100)] | None = None
     chain_radius: Annotated[Entry, quantity("m", 1e-3, 10.0)] | None = None
+    ripple_travel: Annotated[Entry, quantity("m", 1e-3, 10.0)] | None = None
+    ripple_cosine: Annotated[Entry, quantity("1", -0.9, 0.9)] | None = None
+    ripple_sine: Annotated[Entry, quantity("1", -0.9, 0.9)] | None = None
+    ripple_cosine_2: Annotated[Entry, quantity("1", -0.9, 0.9)] | None = None
+    ripple_sine_2: Annotated[Entry, quantity("1", -0.9, 0.9)] | None = None
+    play: Annotated[Entry, quantity("m", 0.0, 1.0)] | None = None
+    play_taken_up: Annotated[Entry, quantity("1", -1.0, 1.0)] | None = None
     tensioner_force: Annotated[Entry, quantity("N", -1e6, 1e6)] | None = None
     tensioner_stroke: Annotated[Entry, quantity("m", 1e-3, 100.0)] | None = None
     tensioner_damping: Annotated[Entry, quantity("N*s/m", 0.0, 1e9)] | None = None
@@ -111,12 +118,20 @@ class Machine(Part):
 
 
 class Contact(Part):
-    """Trough and roller."""
+    """Trough and roller; the optional keys, of trough, deck and walls, are explained in :mod:`beam.sliding_friction`.
+
+    Friction falls with the sliding speed by `friction_fall` to `friction`, over `fall_speed` (with `fall_power` 0, 1 or 2, by
+    default 1). `drag` is the resistance of trough and deck per length and speed of the cable that lies on them.
+    """
 
     friction: Annotated[Entry, quantity("1", 0.0, 2.0)]
     stiffness: Annotated[Entry, quantity("N/m^2", 1e3, 1e10)]
     roller_stiffness: Annotated[Entry, quantity("N/m^2", 1e3, 1e10)]
     damping_time: Annotated[Entry, quantity("s", 0.0, 1.0)]
+    friction_fall: Annotated[Entry, quantity("1", 0.0, 2.0)] | None = None
+    fall_speed: Annotated[Entry, quantity("m/s", 1e-6, 100.0)] | None = None
+    fall_power: Annotated[Entry, quantity("1", 0.0, 2.0)] | None = None
+    drag: Annotated[Entry, quantity("N s/m^2", 0.0, 1e4)] | None = None
 
 
 class Roller(Part):

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beam.contact_force import CYLINDER, PARAMETERS, PLANE
+from beam.sliding_friction import DRAG, FALL, friction_coefficient
 from geometry.errors import SpecError
 
 Array = NDArray[np.float64]
@@ -50,7 +51,14 @@ class ContactLaw:
     """Normal and friction law per length of cable.
 
     `stiffness` kn [N/m^2], `friction` mu. The damping time tells cn = `damping_time` kn; the bristles have
-    kt = `bristle_ratio` kn and ct = `bristle_time` kt.
+    kt = `bristle_ratio` kn and ct = `bristle_time` kt. Friction falls with the sliding speed from `friction` + `fall` to
+    `friction`, see :mod:`beam.sliding_friction`, and `drag` [N s/m^2] is viscous.
+
+    Examples
+    --------
+    >>> law = ContactLaw(friction=0.3, fall=0.1, fall_speed=0.05)
+    >>> [round(law.coefficient(v), 4) for v in (0.0, 0.05, 10.0)]
+    [0.4, 0.3368, 0.3]
     """
 
     stiffness: float = 1.25e6
@@ -58,6 +66,10 @@ class ContactLaw:
     damping_time: float = 2e-3
     bristle_ratio: float = 0.5
     bristle_time: float = 1e-2
+    fall: float = 0.0
+    fall_speed: float = 1.0
+    fall_power: float = 1.0
+    drag: float = 0.0
 
     def __post_init__(self) -> None:
         if not (self.stiffness > 0 and self.friction >= 0 and self.damping_time >= 0 and self.bristle_ratio > 0):
@@ -65,11 +77,23 @@ class ContactLaw:
                 f"a contact law needs a positive stiffness and bristle ratio and a friction coefficient of zero or more, "
                 f"found {self.stiffness:g} N/m^2, {self.bristle_ratio:g} and {self.friction:g}."
             )
+        if not (self.fall >= 0 and self.fall_speed > 0 and self.fall_power >= 0 and self.drag >= 0):
+            raise SpecError(
+                f"friction that falls with speed needs a fall, a power and a drag of zero or more and a positive speed, "
+                f"found {self.fall:g}, {self.fall_power:g}, {self.drag:g} N s/m^2 and {self.fall_speed:g} m/s."
+            )
 
     def fill(self, p: Array) -> None:
-        """Write the five law parameters into `p`."""
+        """Write the nine law parameters into `p`."""
         kt = self.bristle_ratio * self.stiffness
         p[1:6] = self.stiffness, self.damping_time * self.stiffness, self.friction, kt, self.bristle_time * kt
+        p[FALL : DRAG + 1] = self.fall, self.fall_speed, self.fall_power, self.drag
+
+    def coefficient(self, speed: float) -> float:
+        """Friction coefficient at a sliding speed [m/s]."""
+        p = np.zeros(PARAMETERS)
+        self.fill(p)
+        return float(friction_coefficient(p, abs(float(speed))))
 
 
 @dataclass(frozen=True)
@@ -89,7 +113,7 @@ class Plane:
     points: int = 3
 
     def parameters(self, t: float) -> Array:
-        """What the kernel reads at time `t`, shape (26,)."""
+        """What the kernel reads at time `t`, shape (30,)."""
         p = np.zeros(PARAMETERS)
         p[24] = 1.0
         p[0] = PLANE
@@ -117,7 +141,7 @@ class Cylinder:
     turn: Spin | FreeTurn | None = None
 
     def parameters(self, t: float) -> Array:
-        """What the kernel reads at time `t`, shape (26,)."""
+        """What the kernel reads at time `t`, shape (30,)."""
         p = np.zeros(PARAMETERS)
         p[24] = 1.0
         p[0] = CYLINDER

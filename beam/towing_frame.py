@@ -228,8 +228,9 @@ def gauss_arc_length(model: RodModel) -> Array:
 
 def formula_forces(scenario: Scenario, mass_per_length: float, times: Array) -> tuple[Array, Array]:
     """Formulas (22) and (23) at `times` [s] for the mass of the upper strand, which moves with the shearer [N]."""
-    pull = [scenario.pull(t) for t in times]
-    travel = np.array([scenario.trolley(t)[0][0] for t in times])
+    towed_end, trolley = scenario.pull, scenario.trolley
+    pull = [towed_end(t) for t in times]
+    travel = np.array([trolley(t)[0][0] for t in times])
     stroke = np.array([u[0] for u, _, _ in pull])
     mass = mass_per_length * (scenario.layout.upper_strand.value + stroke - travel)
     acceleration = np.array([a[0] for _, _, a in pull])

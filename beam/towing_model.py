@@ -83,15 +83,25 @@ def _rod(scenario: Scenario, section: SectionStiffness, inertia: SectionInertia)
     return replace(rod, E0=E0)
 
 
+def trough_law(scenario: Scenario) -> ContactLaw:
+    """Of trough and deck, with what falls with speed and the drag where the scenario has them."""
+    contact = scenario.contact
+    law = ContactLaw(contact.stiffness.value, contact.friction.value, contact.damping_time.value)
+    given = {
+        "fall": contact.friction_fall, "fall_speed": contact.fall_speed, "fall_power": contact.fall_power, "drag": contact.drag,
+    }  # fmt: skip
+    return replace(law, **{name: entry.value for name, entry in given.items() if entry is not None})
+
+
 def towing_surfaces(scenario: Scenario) -> list[Surface]:
     """Trough, deck, side walls, and roller or arch."""
     contact, layout = scenario.contact, scenario.layout
     R, height, start = layout.bend_radius.value, scenario.deck_height, scenario.roller_start
-    trough = ContactLaw(contact.stiffness.value, contact.friction.value, contact.damping_time.value)
+    trough = trough_law(scenario)
     smooth = ContactLaw(contact.roller_stiffness.value, 0.0, contact.damping_time.value)
     trolley = scenario.trolley
     machine = scenario.machine
-    plate = replace(trough, friction=0.0) if machine else trough
+    plate = replace(trough, friction=0.0, fall=0.0, drag=0.0) if machine else trough
     out: list[Surface] = [
         Plane("trough", trough),
         Plane(
@@ -103,7 +113,8 @@ def towing_surfaces(scenario: Scenario) -> list[Surface]:
         if scenario.has_clamps and scenario.clamps is not None:
             half += 0.5 * scenario.clamps.width.value
         out += [
-            Plane(f"{side} wall", trough, (0.0, 0.0, sign), -half) for side, sign in (("left", 1.0), ("right", -1.0))
+            Plane(f"{side} wall", replace(trough, drag=0.0), (0.0, 0.0, sign), -half)
+            for side, sign in (("left", 1.0), ("right", -1.0))
         ]
     if machine is not None:
         out.append(Cylinder("arch", replace(smooth, friction=machine.arch_friction.value), (start, R, 0.0), R))

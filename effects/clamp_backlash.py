@@ -4,7 +4,8 @@ r"""Play between neighbouring cable clamps: dead travel at every reversal.
 
 the play operator of width b (Visintin, Differential Models of Hysteresis, 1994, ch. III): the end of the cable stands still
 while the drive crosses the play. Plain form: at the start the play is taken up towards pulling, where the tension holds it;
-richer: the clamp begins in the middle of its play.
+richer: the clamp begins in the middle of its play. What a campaign shows is the dead travel of the towed end as a whole; in a scenario of
+the rod it is that of the drive (:mod:`beam.drive_play`), not of every pin of a chain.
 """
 
 from __future__ import annotations
@@ -13,8 +14,11 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from beam.drive_play import reversals
 from effects.effect import Array, BenchPath, Effect, Form, Parameter, of_values
 from effects.towed_cable import TowedCable, stop, turns_back
+from effects.towed_scenario import TowedScenario, si
+from geometry.errors import SpecError
 
 
 def _act(begin: float) -> Callable[..., TowedCable]:
@@ -30,6 +34,22 @@ def _act(begin: float) -> Callable[..., TowedCable]:
             return np.column_stack([p - p[0], v, a])
 
         return cable.driven(drive)
+
+    return act
+
+
+def _drive(begin: float) -> Callable[..., TowedScenario]:
+    def act(towed: TowedScenario, _strength: Sequence[float], play: float) -> TowedScenario:
+        drive, duration = towed.scenario.pull, towed.scenario.time.duration.value
+        if begin == 1.0 and len(reversals(drive, duration)) == 1:
+            raise SpecError("the play is taken up at the start, and the shearer of this scenario never turns back")
+        if towed.scenario.drive.play is not None:
+            raise SpecError("the scenario has a drive.play already; leave it out, or the effect")
+        where = "taken up" if begin else "centred"
+        return towed.changed(
+            f"clamp-backlash: drive.play {1e3 * play:.3g} mm, {where} at the start",
+            drive__play=si(play, "m"), drive__play_taken_up=begin,
+        )  # fmt: skip
 
     return act
 
@@ -56,8 +76,8 @@ EFFECT = Effect(
     signature="after every reversal the tension waits until the play is crossed, longer where the drive is slow",
     kinds=("towing",),
     forms=(
-        Form("taken up at the start", "drive", _act(1.0), shape=_SHAPE),
-        Form("centred at the start", "drive", _act(0.0), shape=_SHAPE),
+        Form("taken up at the start", "drive", _act(1.0), shape=_SHAPE, scenario=_drive(1.0)),
+        Form("centred at the start", "drive", _act(0.0), shape=_SHAPE, scenario=_drive(0.0)),
     ),
     why_untestable=_why_untestable,
 )

@@ -209,6 +209,9 @@ class Form:
         State variables per material point.
     derived : tuple of Derived
         What reports name first.
+    scenario : callable, optional
+        Only chains and drives: ``scenario(towed, strength, *shape)`` gives the :class:`effects.towed_scenario.TowedScenario` with
+        the effect, for the towing run of the rod.
     """
 
     name: str
@@ -219,6 +222,7 @@ class Form:
     advance: Advance | None = field(default=None, repr=False)
     memory: int = 0
     derived: tuple[Derived, ...] = ()
+    scenario: Callable[..., Any] | None = field(default=None, repr=False)
 
 
 UNKNOWN = BenchPath("tension", np.zeros(0))

@@ -5,7 +5,7 @@ r"""Speed ripple of a round-link chain on its sprocket, at the frequency at whic
 x is the told travel and lambda the travel from pocket to pocket, so that the frequency is v/lambda. A chain on z pockets runs
 between R and R cos(pi/z), a ripple of about pi^2/(4 z^2) to either side, whose second harmonic is a quarter of the first
 (:mod:`beam.polygon_effect` has the series). Plain form: one harmonic; richer: two, each free in size and phase. The told
-position does not know of it.
+position does not know of it. In a scenario of the rod the chain drives the trolley: x is the trolley's travel (:mod:`beam.speed_ripple`).
 """
 
 from __future__ import annotations
@@ -15,31 +15,45 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from beam.speed_ripple import rippled
 from effects.effect import Array, BenchPath, Effect, Form, Parameter, Starts
 from effects.sensor_drift import needs_clock
 from effects.towed_cable import TowedCable
+from effects.towed_scenario import TowedScenario, needs_trolley, si
+from geometry.errors import SpecError
 
 _SHORTEST, _LONGEST, _MOST = 0.04, 0.4, 60
 
 
+def _harmonics(strength: Sequence[float]) -> list[tuple[float, float]]:
+    return [(float(A), float(B)) for A, B in zip(strength[::2], strength[1::2], strict=True)]
+
+
 def _act(cable: TowedCable, strength: Sequence[float], pitch: float) -> TowedCable:
-    parts = [(m + 1, float(strength[2 * m]), float(strength[2 * m + 1])) for m in range(len(strength) // 2)]
+    parts = _harmonics(strength)
     speed = float(np.abs(np.diff(cable.position) / np.diff(cable.time)).max())
 
     def drive(t: Array, motion: Array) -> Array:
-        x, v, a = motion.T
-        ripple, slope, shift = np.zeros(len(x)), np.zeros(len(x)), np.zeros(len(x))
-        for m, A, B in parts:
-            k = 2 * math.pi * m / pitch
-            c, s = np.cos(k * x), np.sin(k * x)
-            ripple += A * c - B * s
-            slope += k * (A * s + B * c)
-            shift += (A * s + B * (c - 1)) / k
-        return np.column_stack([x + shift, v * (1 + ripple), a * (1 + ripple) - v**2 * slope])
+        return rippled(motion, pitch, parts)
 
     if speed == 0 or not any(strength):
         return cable
     return cable.driven(drive, pitch / (speed * len(parts)))
+
+
+def _trolley(towed: TowedScenario, strength: Sequence[float], pitch: float) -> TowedScenario:
+    needs_trolley(towed.scenario, "which a chain could drive")
+    if towed.scenario.drive.ripple_travel is not None:
+        raise SpecError("the scenario has a drive.ripple_travel already; leave it out, or the effect")
+    parts = _harmonics(strength)
+    keys = ("ripple_cosine", "ripple_sine", "ripple_cosine_2", "ripple_sine_2")
+    values: dict[str, object] = {f"drive__{key}": float(v) for key, v in zip(keys, strength, strict=False)}
+    size = ", ".join(f"{100 * math.hypot(A, B):.3g} %" for A, B in parts)
+    return towed.changed(
+        f"polygon-effect: drive.ripple_cosine, ..._sine: the trolley's speed ripples by {size} once every {1e3 * pitch:.4g} mm of its way",
+        drive__ripple_travel=si(pitch, "m"),
+        **values,
+    )
 
 
 def _pitches(paths: Sequence[BenchPath]) -> Array:
@@ -81,8 +95,8 @@ EFFECT = Effect(
     signature="a ripple of the tension whose period is a length of travel, not a time; strongest where it meets a mode of the cable",
     kinds=("towing",),
     forms=(
-        Form("one harmonic", "chain", _act, shape=_SHAPE, strength=_FIRST),
-        Form("two harmonics", "chain", _act, shape=_SHAPE, strength=(*_FIRST, *_SECOND)),
+        Form("one harmonic", "chain", _act, shape=_SHAPE, strength=_FIRST, scenario=_trolley),
+        Form("two harmonics", "chain", _act, shape=_SHAPE, strength=(*_FIRST, *_SECOND), scenario=_trolley),
     ),
     why_untestable=needs_clock,
 )  # fmt: skip

@@ -5,7 +5,7 @@ r"""Friction on the trough that falls with sliding speed.
 mu is the coefficient at high speed, that which is calibrated; Delta mu the excess at rest, v_s the speed at which it goes.
 Plain form p = 1 (Tustin 1947; Bo & Pavelescu, Wear 82 (1982) 277), richer p = 2 (Armstrong-Helouvry et al., Automatica
 30 (1994) 1083), and with a longer tail Delta mu / (1 + (v/v_s)^2) (Hess & Soom, J. Tribol. 112 (1990) 147). Every point of
-the cable slides at its own speed.
+the cable slides at its own speed, in the chain as in a scenario of the rod.
 """
 
 from __future__ import annotations
@@ -14,11 +14,31 @@ from collections.abc import Callable, Sequence
 
 from effects.effect import BenchPath, Effect, Form, Parameter
 from effects.towed_cable import TowedCable, largest_speed, of_speed
+from effects.towed_scenario import TowedScenario, si
+from geometry.errors import SpecError
 
 
 def _law(power: float) -> Callable[..., TowedCable]:
     def act(cable: TowedCable, strength: Sequence[float], fall_speed: float) -> TowedCable:
         return cable.with_chain(fall=float(strength[0]), fall_speed=fall_speed, fall_power=power)
+
+    return act
+
+
+def _trough(power: float) -> Callable[..., TowedScenario]:
+    def act(towed: TowedScenario, strength: Sequence[float], fall_speed: float) -> TowedScenario:
+        if towed.scenario.contact.friction_fall is not None:
+            raise SpecError("the scenario has a contact.friction_fall already; leave it out, or the effect")
+        fall, nominal = float(strength[0]), towed.scenario.contact.friction.value
+        fast = towed.calibrated.get("friction coefficient", nominal)
+        told = "" if fast == nominal else f"; contact.friction {nominal:.3g} -> {fast:.3g}, calibrated beside it"
+        return towed.changed(
+            f"trough-friction-stribeck: contact.friction_fall {fall:.3g} over {fall_speed:.3g} m/s{told}",
+            contact__friction=fast,
+            contact__friction_fall=fall,
+            contact__fall_speed=si(fall_speed, "m/s"),
+            contact__fall_power=power,
+        )
 
     return act
 
@@ -54,9 +74,9 @@ EFFECT = Effect(
     signature="more friction where the cable is slow: a peak at breaking away, and a gap between slow and fast records",
     kinds=("towing",),
     forms=(
-        Form("exponential", "chain", _law(1.0), shape=_SHAPE, strength=_STRENGTH),
-        Form("Gaussian", "chain", _law(2.0), shape=_SHAPE, strength=_STRENGTH),
-        Form("rational", "chain", _law(0.0), shape=_SHAPE, strength=_STRENGTH),
+        Form("exponential", "chain", _law(1.0), shape=_SHAPE, strength=_STRENGTH, scenario=_trough(1.0)),
+        Form("Gaussian", "chain", _law(2.0), shape=_SHAPE, strength=_STRENGTH, scenario=_trough(2.0)),
+        Form("rational", "chain", _law(0.0), shape=_SHAPE, strength=_STRENGTH, scenario=_trough(0.0)),
     ),
     why_untestable=_why_untestable,
 )

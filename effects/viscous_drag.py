@@ -12,10 +12,17 @@ from collections.abc import Sequence
 
 from effects.effect import Effect, Form, Parameter
 from effects.towed_cable import TowedCable
+from effects.towed_scenario import TowedScenario, si
 
 
 def _act(cable: TowedCable, strength: Sequence[float]) -> TowedCable:
     return cable.with_chain(drag=float(strength[0]))
+
+
+def _trough(towed: TowedScenario, strength: Sequence[float]) -> TowedScenario:
+    entry = towed.scenario.contact.drag
+    drag = float(strength[0]) + (0.0 if entry is None else entry.value)
+    return towed.changed(f"viscous-drag: contact.drag {drag:.4g} N s/m^2", contact__drag=si(drag, "N s/m^2"))
 
 
 EFFECT = Effect(
@@ -29,7 +36,7 @@ EFFECT = Effect(
     kinds=("towing",),
     forms=(
         Form(
-            "linear", "chain", _act,
+            "linear", "chain", _act, scenario=_trough,
             strength=(
                 Parameter(
                     "drag", "N s/m^2", "resistance per length and speed", plausible=(0.05, 100.0),

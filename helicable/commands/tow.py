@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -13,13 +12,13 @@ from beam import TowingRun, accurate_settings, builtin_scenarios, read_scenario
 from beam import tow as run_towing
 from beam.bending_history import bending_history
 from beam.fatigue_history import fatigue_history
+from beam.scenario import Scenario
 from beam.towing_comparison import comparison
 from beam.towing_record import write_contact_table
-from effects.effect import ActiveEffect
-from effects.effect_record import read_effects
-from effects.rod_law import STRAINS_OF, RodLaw
+from effects.rod_law import RodLaw
 from geometry.errors import ConvergenceError, SpecError
 from helicable.beam_constants import BeamConstants, beam_constants
+from helicable.found_effects import EffectsOption, ScenarioWithEffects, found_effects
 from helicable.options import JsonOption
 from helicable.screen import folder, progress, say, table, write_json
 from homogenize import SectionStiffness
@@ -48,12 +47,7 @@ def tow(
     out: Annotated[
         Path | None, typer.Option("--out", metavar="DIR", help="Write run.nc, curves and pictures here.")
     ] = None,
-    effects: Annotated[
-        Path | None,
-        typer.Option(
-            "--effects", metavar="FILE", help="JSON of `helicable explain`: its section effects act in the rod."
-        ),
-    ] = None,
+    effects: EffectsOption = None,
     accurate: Annotated[
         bool,
         typer.Option(
@@ -86,7 +80,10 @@ def tow(
     if animate and out is None:
         raise SpecError("--animate needs --out DIR, the folder that the animation is written to.")
     file = None if out is None else folder(out) / "run.nc"
-    found = None if effects is None else section_effects(effects)
+    found = None
+    if effects:
+        found = found_effects(effects).into(chosen_scenario(scenario, constants, element, chain))
+        show_effects(found)
     run, used = towing_run(
         scenario,
         constants,
@@ -101,8 +98,9 @@ def tow(
     show_run(run, used)
     record = towing_json(run, used)
     if found is not None:
-        without, _ = towing_run(scenario, constants, cable, element=element, chain=chain)
+        without, _ = towing_run(scenario, constants, cable, element=element, chain=chain, accurate=accurate)
         record["without_effects"] = show_change(without, run, found)
+        record["effects"] = {"changes": list(found.notes), "aside": list(found.aside)}
     if out is not None:
         table_file = write_contact_table(run.dataset, folder(out) / "contacts.csv")
         bending = bending_history(run.dataset).write(out / "bending.csv", run.scenario.cable.diameter.value)
@@ -127,23 +125,28 @@ def towing_run(
     file: Path | None = None,
     resume: bool = False,
     chain: str | None = None,
-    found: Sequence[ActiveEffect] | None = None,
+    found: ScenarioWithEffects | None = None,
     accurate: bool = False,
 ) -> tuple[TowingRun, BeamConstants]:
     """Read a scenario, resolve its constants (`cell`, if given, is the section of the cable), and run it with progress.
 
-    With a `file` the run is written there while it goes; with `resume` it goes on from what is there. An ANCF cable has no
-    rotations for clamps: they become mass on it, unless `chain` says otherwise.
+    With a `file` the run is written there while it goes; with `resume` it goes on from what is there. With `found` effects their
+    scenario is run, and their laws act in the rod.
     """
-    chain = chain or ("smeared" if element == "ancf-cable" else None)
-    choices = {"constants": constants, "element": element, "chain": chain}
-    read = read_scenario(scenario).changed(**{key: value for key, value in choices.items() if value is not None})
+    read = chosen_scenario(scenario, constants, element, chain) if found is None else found.scenario
     used = beam_constants(read, cable, cell)
     with progress("towing") as tell:
-        law = None if found is None else RodLaw(used.section, found)
+        law = RodLaw(used.section, found.section) if found is not None and found.section else None
         settings = accurate_settings(read) if accurate else None
         run = run_towing(read, used.section, progress=tell, law=law, file=file, resume=resume, settings=settings)
     return run, used
+
+
+def chosen_scenario(scenario: str, constants: str | None, element: str | None, chain: str | None) -> Scenario:
+    """A scenario with what the options say; an ANCF cable has no rotations for clamps: unless `chain` says otherwise they become mass."""
+    chain = chain or ("smeared" if element == "ancf-cable" else None)
+    choices = {"constants": constants, "element": element, "chain": chain}
+    return read_scenario(scenario).changed(**{key: value for key, value in choices.items() if value is not None})
 
 
 WHY = {
@@ -158,26 +161,17 @@ WHY = {
 """Why a run whose clamps are mass on the cable differs from the source, by the key of the published value."""
 
 
-def section_effects(file: Path) -> tuple[ActiveEffect, ...]:
-    """The effects of the JSON of `helicable explain` that act in the section of a rod; the others are named and left aside.
-
-    Raises
-    ------
-    SpecError
-        If the file is no such JSON, or none of its effects acts in the section.
-    """
-    found = read_effects(file)
-    acting = tuple(a for a in found if a.form.advance is not None and a.kind in STRAINS_OF)
-    aside = [f"{a.effect.name} ({a.kind})" for a in found if a not in acting]
-    if not acting:
-        names = f" ({', '.join(aside)})" if aside else ""
-        raise SpecError(f"{file}: none of the effects that were found{names} acts in the section of a rod.")
-    if aside:
-        say(f"left aside, because they do not act in the section: {', '.join(aside)}.")
-    return acting
+def show_effects(found: ScenarioWithEffects) -> None:
+    """Print what the effects change in the scenario, and which are left aside."""
+    for one in found.section:
+        say(f"{one.effect.name} ({one.kind}): acts in the section of the rod.")
+    for note in found.notes:
+        say(f"{note}.")
+    for sentence in found.aside:
+        say(f"left aside: {sentence}.")
 
 
-def show_change(without: TowingRun, run: TowingRun, found: Sequence[ActiveEffect]) -> dict[str, float]:
+def show_change(without: TowingRun, run: TowingRun, found: ScenarioWithEffects) -> dict[str, float]:
     """Print what the effects change in the towing prediction; the numbers without them."""
     before, after = without.record(), run.record()
     keys = {"peak_tension": "peak tension", "pull_force_plateau": "pull force, steady"}
@@ -185,7 +179,7 @@ def show_change(without: TowingRun, run: TowingRun, found: Sequence[ActiveEffect
         (words, f"{before[key]:.1f} N", f"{after[key]:.1f} N", f"{100 * (after[key] / before[key] - 1):+.2f} %")
         for key, words in keys.items()
     ]
-    names = ", ".join(dict.fromkeys(a.effect.name for a in found))
+    names = ", ".join(dict.fromkeys(a.effect.name for a in found.acting))
     table(f"What {names} changes", ("", "without", "with", "change"), rows, right=(1, 2, 3))
     return {key: before[key] for key in keys}
 

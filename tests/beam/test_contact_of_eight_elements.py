@@ -12,10 +12,14 @@ from beam.surface import ContactLaw, Cylinder, Plane
 from homogenize.section_stiffness import SectionInertia, SectionStiffness
 
 LAW = ContactLaw(stiffness=1e5, friction=0.4)
+FALLS = ContactLaw(stiffness=1e5, friction=0.4, fall=0.3, fall_speed=0.1, fall_power=2.0, drag=50.0)
 SURFACES = {
     "floor and deck": [Plane("floor", LAW), Plane("deck", LAW, (0.6, 0.8, 0.0), 0.9, low=(0.6, -np.inf, -np.inf))],
     "smooth floor": [Plane("floor", ContactLaw(stiffness=1e5))],
     "rough drum and floor": [Cylinder("drum", LAW, (0.5, -0.2, 0.0), 0.201), Plane("floor", LAW, offset=5e-4)],
+    "friction that falls with speed, drag": [Plane("floor", FALLS), Cylinder("drum", FALLS, (0.5, -0.2, 0.0), 0.201)],
+    "friction at rest only": [Plane("floor", ContactLaw(stiffness=1e5, fall=0.3, fall_speed=0.1, fall_power=0.0))],
+    "smooth floor with drag": [Plane("floor", ContactLaw(stiffness=1e5, drag=50.0))],
 }
 
 

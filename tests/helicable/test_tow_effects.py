@@ -6,11 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beam import read_scenario
 from effects import find
 from effects.effect import ActiveEffect, BenchPath
 from effects.effect_record import active_effect, effect_record, read_effects
 from geometry.errors import SpecError
 from helicable.commands import tow as command
+from helicable.found_effects import found_effects
 from helicable.main import main
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -63,12 +65,12 @@ def test_section_effects_reach_the_rod_and_the_change_is_shown(file, monkeypatch
     out = " ".join(capsys.readouterr().out.split())
     (law, section), (none, _) = laws
     assert none is None and law.section is section and [a.effect.name for a in law.active] == ["interlayer-friction"]
-    assert "left aside, because they do not act in the section: sensor-lag (bending)" in out
+    assert "left aside: sensor-lag (bending): it acts in a sensor." in out
     assert "1000.0 N" in out and "1100.0 N" in out and "+10.00 %" in out
 
 
-def test_damping_of_the_bench_raises_the_pull_of_the_rod(tmp_path):
-    """A cable that resists bending at a rate takes work at the roller: end to end, from the file of the findings to the pull."""
+def short_scenario() -> str:
+    """0.8 s of the built-in scenario with 100 elements."""
     text = (ROOT / "data" / "scenarios" / "intelligent-horizontal.toml").read_text(encoding="utf-8")
     for told, short in (
         ("{ value = 400,", "{ value = 100,"),
@@ -78,8 +80,13 @@ def test_damping_of_the_bench_raises_the_pull_of_the_rod(tmp_path):
     ):
         assert text.count(told) == 1
         text = text.replace(told, short)
+    return text
+
+
+def test_damping_of_the_bench_raises_the_pull_of_the_rod(tmp_path):
+    """A cable that resists bending at a rate takes work at the roller: end to end, from the file of the findings to the pull."""
     scenario, found, out = tmp_path / "short.toml", tmp_path / "found.json", tmp_path / "tow.json"
-    scenario.write_text(text, encoding="utf-8")
+    scenario.write_text(short_scenario(), encoding="utf-8")
     damping = find("viscous-damping")
     active = ActiveEffect(damping, damping.forms[0], "bending", strength=(1.0,))
     found.write_text(json.dumps({"schema": 1, "found": [effect_record(active)]}))
@@ -102,20 +109,52 @@ def test_damping_of_the_bench_raises_the_pull_of_the_rod(tmp_path):
     assert record["pull_force_plateau"] > 1.01 * without  # the peak, a wave of the start, is damped instead
 
 
+def test_bench_and_face_act_together_in_one_command(tmp_path, capsys):
+    """A law of the section, a drag and a mass: each is told, and the pull rises by a part of drag x speed x length.
+
+    The rest goes off the tension at the bend: the taut cable is held between two ends whose motion is given.
+    """
+    drag, load, polygon = (find(name) for name in ("viscous-drag", "added-load", "polygon-effect"))
+    towing = [
+        ActiveEffect(drag, drag.forms[0], "towing", strength=(200.0,)),
+        ActiveEffect(load, load.forms[0], "towing", strength=(2.0,)),
+        ActiveEffect(load, load.forms[1], "towing", shape=(1.0, 3.0), strength=(2.0,)),
+        ActiveEffect(polygon, polygon.forms[0], "towing", shape=(0.1,), strength=(0.05, 0.02)),
+        ActiveEffect(find("sensor-drift"), find("sensor-drift").forms[0], "towing", "tension", (), (0.1,)),
+    ]
+    damping = find("viscous-damping")
+    bench = [ActiveEffect(damping, damping.forms[0], "bending", strength=(0.01,))]
+    scenario, lab, face, out = (tmp_path / name for name in ("short.toml", "lab.json", "face.json", "tow.json"))
+    scenario.write_text(short_scenario(), encoding="utf-8")
+    for path, found in ((lab, bench), (face, towing)):
+        path.write_text(json.dumps({"schema": 1, "found": [effect_record(e) for e in found]}))
+    words = ["tow", str(scenario), "--constants", "published", "--chain", "smeared", "--json", str(out)]
+    assert main([*words, "--effects", str(lab), "--effects", str(face)]) == 0
+    said, record = " ".join(capsys.readouterr().out.split()), json.loads(out.read_text())
+    assert "What viscous-damping, viscous-drag, added-load, polygon-effect changes without with change" in said
+    assert (
+        "cable.clamp_mass_per_length 6 -> 8 kg/m" in said
+        and "left aside: added-load (towing): the load lies from 1" in said
+    )
+    assert len(record["effects"]["changes"]) == 3 and len(record["effects"]["aside"]) == 2
+    rise = record["pull_force_plateau"] - record["without_effects"]["pull_force_plateau"]
+    assert 0.5 < rise / (200.0 * 6.86 / 60 * 7.4) < 1.0  # drag x speed x upper strand
+
+
 def test_what_cannot_act_in_a_rod_is_refused_in_a_sentence(file, tmp_path):
     other = tmp_path / "other.json"
     for text, words in (
         (
             json.dumps({"found": [effect_record(LAG)]}),
-            r"none of the effects that were found \(sensor-lag \(bending\)\)",
+            r"none of the effects that were found \(sensor-lag \(bending\): it acts in a sensor\)",
         ),
         ("{}", "this is not the JSON of `helicable explain`"),
         (json.dumps({"found": [{**effect_record(FRICTION), "form": "older"}]}), 'no form "older"'),
     ):
         other.write_text(text)
         with pytest.raises(SpecError, match=words):
-            command.section_effects(other)
+            found_effects([other]).into(read_scenario("intelligent-horizontal"))
     with pytest.raises(SpecError, match="cannot be read"):
-        command.section_effects(tmp_path / "none.json")
+        found_effects([tmp_path / "none.json"])
     with pytest.raises(SpecError, match="no record of an effect"):
         active_effect({"effect": "plasticity"})
