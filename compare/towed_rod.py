@@ -5,11 +5,12 @@ Gravity is turned by the inclination, the tail tension is a force on node 0, and
 
 .. math::
 
-    f = \mu\,k_n g\; z/d, \qquad k_t = \mu\,m g\cos\alpha / d, \qquad k_n g = m g\cos\alpha \text{ at rest}
+    |f| \le \mu(v)\,k_n g, \qquad k_t = \mu(0)\,m g\cos\alpha / d, \qquad k_n g = m g\cos\alpha \text{ at rest}
 
-so that a travel d mobilises it (Dahl's bristle, :mod:`beam.contact_force`). Stretch is damped by the chain's
-Kelvin-Voigt time. Drag is a dashpot from every node to the ground, an added load that lies all along the cable is mass; the
-drives lead the end as they lead the chain's, and the bend is lost from what is read.
+so that a travel d mobilises it at rest (Dahl's bristle, :mod:`beam.contact_force`). The chain's bristle is held at the travel d
+whatever the speed, the rod's at the friction of the speed: where friction falls, they part while a cable breaks away, by less
+than a travel d. Stretch is damped by the chain's Kelvin-Voigt time. Drag is that of the contact, an added load that lies all
+along the cable is mass; the drives lead the end as they lead the chain's, and the bend is lost from what is read.
 """
 
 from __future__ import annotations
@@ -22,7 +23,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beam.axial_chain import GRAVITY, AxialChain
-from beam.bushing import GROUND, Bushing
 from beam.generalized_alpha import Integrator, StepSettings
 from beam.rod import GAUSS_X, Rod
 from beam.rod_model import RodModel
@@ -79,18 +79,9 @@ class Section:
 def carried(cable: TowedCable) -> tuple[TowedCable, tuple[str, ...]]:
     """The cable with what the rod can carry, and a sentence on everything that it cannot.
 
-    The contact law of the rod has one friction coefficient: friction that falls with speed becomes that at the root mean
-    square of the told speed while it moves. Its mass is the same everywhere: a load on a part of the cable is left out.
+    Its mass is the same everywhere: a load on a part of the cable is left out.
     """
     chain, notes = cable.chain, []
-    if chain.fall > 0:
-        speed = _typical_speed(cable)
-        at = chain.friction + chain.excess(speed)
-        chain = replace(chain, friction=at, fall=0.0)
-        notes.append(
-            "friction that falls with speed is not in the contact law of the rod: rod and chain are compared at the constant "
-            "friction of each record's typical speed"
-        )
     parts = [load for load in chain.added if not _all_along(load, chain.length)]
     if parts:
         chain = replace(chain, added=tuple(load for load in chain.added if load not in parts))
@@ -146,7 +137,7 @@ def rod_tensions(
 
 
 def towed_rod(chain: AxialChain, section: Section, led: Led, elements: int) -> RodModel:
-    """The rod of a chain without load on parts of it and without falling friction, its end led by `led`."""
+    """The rod of a chain without load on parts of it, its end led by `led`."""
     mass = chain.mass + sum(extra for extra, _, _ in chain.added)
     stiffness = SectionStiffness.uncoupled(
         EA=chain.EA, GA_x=section.GA, GA_y=section.GA, EI_x=section.EI, EI_y=section.EI, GJ=section.GJ, area=1.0
@@ -155,8 +146,12 @@ def towed_rod(chain: AxialChain, section: Section, led: Led, elements: int) -> R
     inertia = SectionInertia(mass, turning, turning, 2 * turning)
     rod = Rod.straight(chain.length, elements, stiffness, inertia, DampingTimes(chain.damping_time, chain.damping_time))
     pressed = mass * GRAVITY * math.cos(chain.inclination)
-    ratio = chain.friction * pressed / chain.presliding / _FLOOR
-    floor = Plane("trough", ContactLaw(_FLOOR, chain.friction, bristle_ratio=ratio, bristle_time=0.0))
+    ratio = (chain.friction + chain.fall) * pressed / chain.presliding / _FLOOR
+    law = ContactLaw(
+        _FLOOR, chain.friction, bristle_ratio=ratio, bristle_time=0.0,
+        fall=chain.fall, fall_speed=chain.fall_speed, fall_power=chain.fall_power, drag=chain.drag,
+    )  # fmt: skip
+    floor = Plane("trough", law)
     start = straight(rod.s)
     start[:, 1] = -pressed / _FLOOR
     start[:, 0] -= _stretch(chain, rod.s)
@@ -164,7 +159,7 @@ def towed_rod(chain: AxialChain, section: Section, led: Led, elements: int) -> R
     load[0, 0] = -chain.tail_tension
     gravity = GRAVITY * np.array([-math.sin(chain.inclination), -math.cos(chain.inclination), 0.0])
     end = Support(-1, ("x", "theta"), led)
-    return RodModel(rod, start, [end], gravity, load, [floor], bushings=_dashpots(chain, rod))
+    return RodModel(rod, start, [end], gravity, load, [floor])
 
 
 @dataclass(frozen=True)
@@ -188,12 +183,6 @@ class Led:
         return along[0], along[1], along[2]
 
 
-def _typical_speed(cable: TowedCable) -> float:
-    speed = np.abs(np.gradient(cable.position, cable.time))
-    moving = speed[speed > 0.05 * max(float(speed.max()), 1e-300)]
-    return float(np.sqrt(np.mean(moving**2))) if moving.size else 0.0
-
-
 def _all_along(load: tuple[float, float, float], length: float) -> bool:
     return load[1] <= 0 and load[2] >= length
 
@@ -203,17 +192,6 @@ def _stretch(chain: AxialChain, x: Array) -> Array:
     tension = chain.rest_tension(chain.length - x)
     parts = 0.5 * (tension[1:] + tension[:-1]) * np.diff(x) / chain.EA
     return np.append(np.cumsum(parts[::-1])[::-1], 0.0)
-
-
-def _dashpots(chain: AxialChain, rod: Rod) -> list[Bushing]:
-    if chain.drag == 0:
-        return []
-    half = 0.5 * np.append(rod.lengths, 0.0) + 0.5 * np.append(0.0, rod.lengths)
-    zero = np.zeros(6)
-    return [
-        Bushing(GROUND, node, zero, (chain.drag * float(share), 0.0, 0.0, 0.0, 0.0, 0.0), name=f"drag {node}")
-        for node, share in enumerate(half)
-    ]
 
 
 def _tensions(run: Integrator, places: Array) -> Array:

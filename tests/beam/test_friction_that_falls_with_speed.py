@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from beam import read_scenario, tow
 from beam.axial_chain import AxialChain
 from beam.benchmark_friction import EA, LENGTH, MU, WEIGHT, cable_on_floor
 from beam.generalized_alpha import Integrator, StepSettings
@@ -14,6 +15,7 @@ from beam.sliding_friction import coefficient_slope
 from beam.statics import equilibrium
 from beam.support import Support
 from beam.surface import ContactLaw, Plane
+from geometry.errors import SpecError
 
 FALL, V_FALL = 0.2, 0.05
 
@@ -54,12 +56,12 @@ def test_steady_sliding_is_pulled_by_the_friction_of_its_speed(speed, power):
     """T = (mu(v) m g + c v) L."""
     motion, read = pulled(law(power, drag=30.0), speed, 300)
     expected = (law(power).coefficient(speed) * WEIGHT + 30.0 * speed) * 2.0
-    assert read[-1, 1] == pytest.approx(expected, rel=1e-4)  # what is left of the first jerk
+    assert read[-1, 1] == pytest.approx(expected, rel=1e-5)  # what is left of the first jerk
     (floor,) = motion.contacts
     assert floor.slips.all() and floor.use.max() == pytest.approx(1.0, abs=1e-12)
-    assert floor.friction.sum() == pytest.approx(law(power).coefficient(speed) * WEIGHT * 2.0, rel=1e-4)
-    assert floor.force[..., 0].sum() == pytest.approx(-expected, rel=1e-4)
-    assert abs(motion.ledger.balance_error) < 1e-3
+    assert floor.friction.sum() == pytest.approx(law(power).coefficient(speed) * WEIGHT * 2.0, rel=1e-5)
+    assert floor.force[..., 0].sum() == pytest.approx(-expected, rel=1e-5)
+    assert abs(motion.ledger.balance_error) < 1e-4
 
 
 def test_at_rest_the_cone_is_the_upper_one():
@@ -76,7 +78,7 @@ def test_at_rest_the_cone_is_the_upper_one():
 
 
 def test_a_gliding_cable_is_slowed_by_the_friction_of_its_speed_and_drag():
-    """dv/dt = -mu(v) g - c v / m, by its own fine integration, within 1e-4 of the speed at the start; energy closes."""
+    """dv/dt = -mu(v) g - c v / m, by its own fine integration, within 2e-5 of the speed at the start; energy closes."""
     contact = law(drag=20.0)
     model = on_floor(contact, 4, [])
     v = np.zeros_like(model.q0)
@@ -95,8 +97,8 @@ def test_a_gliding_cable_is_slowed_by_the_friction_of_its_speed_and_drag():
         middle = glide[-1] + 0.5 * h * rate(glide[-1])
         glide.append(glide[-1] + h * rate(middle))
     assert glide[-1] > 0.02
-    np.testing.assert_allclose(speed, np.interp(at, fine, glide), rtol=0, atol=3e-3 * 0.3)
-    assert abs(motion.ledger.balance_error) < 1e-3
+    np.testing.assert_allclose(speed, np.interp(at, fine, glide), rtol=0, atol=2e-5 * 0.3)
+    assert abs(motion.ledger.balance_error) < 1e-5
     assert motion.ledger.totals["friction_loss"] > 0
 
 
@@ -159,7 +161,7 @@ def test_the_pull_of_the_chain_is_that_of_the_rod():
 
     assert rod.max() > 1.1 * rod[-1]
     assert np.sqrt(np.mean((np.interp(at, time, run.tension) - rod) ** 2)) < 0.002 * limit
-    assert abs(motion.ledger.balance_error) < 2e-3
+    assert abs(motion.ledger.balance_error) < 2e-4
 
 
 def test_a_body_slides_by_the_same_law():
@@ -186,3 +188,45 @@ def test_a_body_slides_by_the_same_law():
         friction = contact.coefficient(speed) * 9.81
         assert forces.body_contact[0, 0] == pytest.approx(-friction - 20.0 * 0.1 * speed, rel=1e-6)
         assert forces.friction_power == pytest.approx((friction + 2.0 * speed) * speed, rel=1e-6)
+
+
+@pytest.mark.parametrize("element", ["rod", "ancf-cable"])
+def test_a_towing_scenario_has_both_on_its_deck(element):
+    """Deck friction over normal force is mu(v) of the shearer; the pull rises by what friction and drag do on it, c v L."""
+    base = read_scenario("intelligent-horizontal").changed(
+        chain="smeared", cable__length="8 m", cable__elements=44, layout__upper_strand="4 m", time__duration="1.2 s",
+        drive__ramp_start="0 s", drive__ramp_end="0.6 s", element=element,
+    )  # fmt: skip
+    changed = base.changed(
+        contact__friction_fall="0.2", contact__fall_speed="50 mm/s", contact__fall_power=2, contact__drag="100 N s/m^2"
+    )
+    speed = base.drive.speed.value
+    plain, slowed = (tow(scenario) for scenario in (base, changed))
+    ends = []
+    for run, extra in ((plain, 0.0), (slowed, 0.2 * np.exp(-((speed / 0.05) ** 2)))):
+        assert run.outcome.completed and abs(run.balance_error) < 1e-4
+        normal, friction = (run.frames.values(f"surface_{name}")[-1, 1] for name in ("normal", "friction"))
+        assert friction == pytest.approx((0.3 + extra) * normal, rel=2e-3)  # waves of the strand
+        along = float(-run.frames.values("surface_force")[-1, 1, 0])
+        ends.append((float(run.frames.values("pull_force")[-1, 0]), along, along - friction))
+        lies = int((run.frames.values("contact_normal")[-1, :, 1] > 0).sum()) * 8.0 / 44
+    (pull, _, none), (more, along, drag) = ends
+    last = [slowed.frames.values(name)[-1] for name in ("pull_force", "supply_reaction", "surface_force")]
+    assert none == pytest.approx(0.0, abs=1e-2) and drag == pytest.approx(100.0 * speed * lies, rel=0.05)  # one element
+    assert sum(float(np.sum(x[..., 0])) for x in last) == pytest.approx(0.0, abs=0.3)  # but for inertia
+    assert 0.85 < (more - pull) / (along - ends[0][1]) < 1.0  # a longer strand holds the bend by less
+
+
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ({"friction_fall": "0.1"}, "add contact.fall_speed"),
+        ({"fall_speed": "1 m/s"}, "add contact.friction_fall"),
+        ({"friction_fall": "0.1", "fall_speed": "1 m/s", "fall_power": 1.5}, "contact.fall_power is 1.5"),
+        ({"friction_fall": "-0.1", "fall_speed": "1 m/s"}, "outside what can be computed"),
+        ({"drag": "-1 N s/m^2"}, "outside what can be computed"),
+    ],
+)
+def test_a_fall_that_cannot_be_is_refused(changes, expected):
+    with pytest.raises(SpecError, match=expected):
+        read_scenario("intelligent-horizontal").changed(**{f"contact__{k}": v for k, v in changes.items()})

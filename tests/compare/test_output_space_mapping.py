@@ -133,12 +133,20 @@ def towed(**changes):
     return TowedCable(replace(chain, **changes), t, p)
 
 
-def test_the_rod_is_the_chain_on_a_straight_trough():
-    """Incline, tail tension, drag, added load, forth and back: within 0.15 % of the friction rms, at the end and inside.
+CARRIED = {
+    "drag and load": {"drag": 4.0, "added": ((0.6, 0.0, 30.0),)},
+    "exponential fall": {"fall": 0.15, "fall_speed": 0.1},
+    "rational fall and drag": {"fall": 0.15, "fall_speed": 0.1, "fall_power": 0.0, "drag": 4.0},
+}
+
+
+@pytest.mark.parametrize("name", CARRIED)
+def test_the_rod_is_the_chain_on_a_straight_trough(name):
+    """Incline, tail tension, forth and back: within 0.15 % of the friction rms, at the end and inside.
 
     That is what elements of 1.5 m and the contact's own compliance leave at breaking away; sliding, both are the same.
     """
-    cable, notes = carried(towed(drag=4.0, added=((0.6, 0.0, 30.0),)))
+    cable, notes = carried(towed(**CARRIED[name]))
     chain = cable.tensions([12.0])
     rod = rod_tensions(cable, Section(2e5, 95.0, 95.0), [12.0])
     friction = 0.35 * 5.2 * 9.81 * 30.0
@@ -149,11 +157,11 @@ def test_the_rod_is_the_chain_on_a_straight_trough():
 
 
 def test_what_the_rod_cannot_carry_is_named_and_left_out_of_both():
-    """Falling friction becomes that of the typical speed; a load on a part goes."""
+    """A load on a part of the cable goes; friction that falls with speed stays."""
     cable, notes = carried(towed(fall=0.1, fall_speed=0.2, added=((0.6, 0.0, 30.0), (1.0, 5.0, 9.0))))
-    assert cable.chain.fall == 0.0 and 0.35 < cable.chain.friction < 0.45
+    assert cable.chain.fall == 0.1 and cable.chain.friction == 0.35
     assert cable.chain.added == ((0.6, 0.0, 30.0),)
-    assert len(notes) == 2 and "falls with speed" in notes[0] and "part of the cable" in notes[1]
+    assert len(notes) == 1 and "part of the cable" in notes[0]
 
 
 def test_a_section_says_what_was_taken(campaign):
