@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -93,8 +94,16 @@ class DrivePlay:
         return out
 
 
-def reversals(base: Travel, duration: float) -> list[float]:
+def reversals(base: Travel, duration: float) -> tuple[float, ...]:
     """0 and the instants [s] before `duration` at which a motion along x turns back."""
+    try:
+        hash(base)
+    except TypeError:  # a motion that holds arrays
+        return _reversals(base, duration)
+    return _kept_reversals(base, duration)
+
+
+def _reversals(base: Travel, duration: float) -> tuple[float, ...]:
     times = np.linspace(0.0, duration, _SAMPLES + 1)
     speed = np.array([float(base(float(t))[1][0]) for t in times])
     moving = np.flatnonzero(np.abs(speed) > 1e-9 * max(float(np.abs(speed).max()), 1e-300))
@@ -102,7 +111,10 @@ def reversals(base: Travel, duration: float) -> list[float]:
     for i, j in pairwise(moving.tolist()):
         if speed[i] * speed[j] < 0:
             out.append(_turn(base, float(times[i]), float(times[j]), float(speed[i])))
-    return out
+    return tuple(out)
+
+
+_kept_reversals = lru_cache(maxsize=64)(_reversals)  # a scenario asks for its motion at every instant
 
 
 def _turn(base: Travel, low: float, high: float, before: float) -> float:

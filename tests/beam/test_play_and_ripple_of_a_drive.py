@@ -6,6 +6,7 @@ import pytest
 from beam import read_scenario
 from beam.drive_play import EDGE, DrivePlay, reversals
 from beam.motion import SpeedRamp
+from beam.motion_curve import MotionCurve
 from beam.motion_reciprocating import ReciprocatingStroke
 from beam.speed_ripple import SpeedRipple
 from geometry.errors import SpecError
@@ -58,6 +59,10 @@ def test_strokes_within_the_play_do_not_move_the_end():
     u = course(DrivePlay(small, B, 14.0))[0]
     assert u[TIMES > 1.25] == pytest.approx(0.015, abs=0.5 * EDGE * B) and len(reversals(small, 14.0)) > 5
     assert len(reversals(SpeedRamp(0.1, 0.0, 1.0), 5.0)) == 1
+    curve = MotionCurve(np.array([0.0, 1.0, 2.0]), np.array([0.0, 0.1, -0.1]))  # arrays cannot be kept by their value
+    assert (
+        reversals(curve, 2.0) == pytest.approx([0.0, reversals(curve, 2.0)[1]]) and 1.4 < reversals(curve, 2.0)[1] < 1.6
+    )
 
 
 def test_the_ripple_has_its_harmonics_and_keeps_the_mean():

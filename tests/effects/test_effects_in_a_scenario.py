@@ -15,6 +15,7 @@ from effects.towed_scenario import changed_by
 
 SCENARIO = read_scenario("intelligent-horizontal").changed(cable__elements=100)
 TIME = np.linspace(0.0, 1.0, 11)
+CHAIN = AxialChain(30.0, 4e5, 4.6, 0.22)
 THERE_AND_BACK = {
     "time": ["0 s", "1 s", "4 s", "6 s", "9 s", "10 s"],
     "speed": ["0 m/s", "0.1 m/s", "0.1 m/s", "-0.1 m/s", "-0.1 m/s", "0 m/s"],
@@ -56,7 +57,7 @@ def test_added_load_is_mass_per_length():
 def test_friction_of_the_trough_falls_with_speed_as_that_of_the_chain(form):
     """mu(v) of trough and deck is the chain's at every speed, with the friction at high speed that was calibrated beside it."""
     effect = active("trough-friction-stribeck", (0.12,), (0.04,), form)
-    chain = effect.form.respond(TowedCable(AxialChain(30.0, 4e5, 4.6, 0.22), TIME, 0 * TIME), (0.12,), 0.04).chain
+    chain = effect.form.respond(TowedCable(CHAIN, TIME, 0 * TIME), (0.12,), 0.04).chain
     law = trough_law(carried(SCENARIO, effect, friction_coefficient=0.22))
     for v in (0.0, 0.02, 0.04, 0.1, 1.0):
         assert law.coefficient(v) == pytest.approx(0.22 + chain.excess(v), rel=1e-12)
@@ -73,14 +74,14 @@ def test_drag_of_the_trough_is_resistance_per_length_and_speed_beside_what_is_th
 def test_roller_resistance_is_a_capstan_of_the_same_loss():
     """exp(mu theta) - 1 = c, theta = pi under a deck of two radii; a second loss multiplies the first."""
     once = carried(SCENARIO, active("roller-resistance", (0.1,)))
-    assert math.expm1(once.roller.friction.value * math.pi) == pytest.approx(0.1, rel=1e-12)
+    assert math.expm1(once.entries()["roller.friction"].value * math.pi) == pytest.approx(0.1, rel=1e-12)
     twice = carried(once, active("roller-resistance", (0.2,), form=1))
-    assert math.exp(twice.roller.friction.value * math.pi) == pytest.approx(1.1 * 1.2, rel=1e-12)
+    assert math.exp(twice.entries()["roller.friction"].value * math.pi) == pytest.approx(1.1 * 1.2, rel=1e-12)
     low = SCENARIO.changed(layout__deck_height="0.5 m")
     angle = math.pi + math.acos((0.5 - 0.3 + 0.9) / 1.2)
-    assert math.expm1(carried(low, active("roller-resistance", (0.1,))).roller.friction.value * angle) == pytest.approx(
-        0.1
-    )
+    assert math.expm1(
+        carried(low, active("roller-resistance", (0.1,))).entries()["roller.friction"].value * angle
+    ) == pytest.approx(0.1)
     driven = SCENARIO.changed(roller__friction=0.2, roller__surface_speed="0.1 m/s")
     assert "the roller is driven" in refused(driven, active("roller-resistance", (0.1,)))
 
@@ -100,7 +101,7 @@ def test_polygon_effect_leads_the_trolley_as_it_leads_the_towed_end_of_a_campaig
     rippled = carried(SCENARIO, effect)
     t = np.linspace(0.6, 9.0, 40)
     even = np.array([[part[0] for part in SCENARIO.trolley(x)] for x in t])
-    cable = effect.form.respond(TowedCable(None, t, even[:, 0]), strength, 0.11)  # the drive does not ask for a chain
+    cable = effect.form.respond(TowedCable(CHAIN, t, even[:, 0]), strength, 0.11)
     assert np.array([[p[0] for p in rippled.trolley(x)] for x in t]) == pytest.approx(
         cable.drives[0](t, even), rel=1e-12
     )
@@ -118,7 +119,10 @@ def test_backlash_is_dead_travel_at_every_reversal_of_the_shearer():
     centred = carried(SCENARIO, active("clamp-backlash", shape=(0.05,), form=1))
     assert centred.pull(9.0)[0][0] == pytest.approx(SCENARIO.pull(9.0)[0][0] - 0.025, rel=1e-12)
     assert "never turns back" in refused(SCENARIO, active("clamp-backlash", shape=(0.05,)))
-    assert carried(read_scenario("bending-machine"), active("clamp-backlash", shape=(0.05,))).drive.play.value == 0.05
+    assert (
+        carried(read_scenario("bending-machine"), active("clamp-backlash", shape=(0.05,))).entries()["drive.play"].value
+        == 0.05
+    )
 
 
 def test_what_has_no_part_in_a_scenario_is_left_aside_by_name():
