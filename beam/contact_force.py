@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from beam.compiled import embedded, kernel
 from beam.hermite import hermite_values
-from beam.sliding_friction import coefficient_slope, friction_coefficient
+from beam.sliding_friction import friction_coefficient, speed_tangent
 
 Array = NDArray[np.float64]
 
@@ -221,26 +221,6 @@ def point_tangent(
     for i in range(3):
         x[i] -= along * n[i]
     friction_tangent(n, x, trial, slid, mu * fn, p[4], p[5] * factor, mu * slope, fade, K)
-
-
-@kernel
-def speed_tangent(
-    p: Array, u: Array, n: Array, closing: float, fn: float, factor: float, fade: Array, K: Array
-) -> float:
-    """mu at the velocity `u`; writes what its fall does to the limit into `fade`, see :func:`friction_tangent`, adds the drag to K."""
-    if p[26] == 0.0 and p[29] == 0.0:
-        return p[3]
-    total = 0.0
-    for i in range(3):
-        fade[i] = u[i] + closing * n[i]
-        total += fade[i] * fade[i]
-    speed = np.sqrt(total)
-    change = -fn * coefficient_slope(p, speed) * factor / max(speed, 1e-300)
-    for i in range(3):
-        fade[i] *= change
-        for j in range(3):
-            K[i, j] += p[29] * factor * ((1.0 if i == j else 0.0) - n[i] * n[j])
-    return friction_coefficient(p, speed)
 
 
 @kernel

@@ -50,3 +50,23 @@ def coefficient_slope(p: Array, speed: float) -> float:
         return -p[26] / p[27] * np.exp(-x)
     x = max(x, 1e-12)
     return -p[26] * p[28] / p[27] * x ** (p[28] - 1.0) * np.exp(-(x ** p[28]))
+
+
+@kernel
+def speed_tangent(
+    p: Array, u: Array, n: Array, closing: float, fn: float, factor: float, fade: Array, K: Array
+) -> float:
+    """mu at the relative velocity `u`; writes what its fall does to the limit, -f_n d(mu)/dx, into `fade`, adds the drag to `K`."""
+    if p[26] == 0.0 and p[29] == 0.0:
+        return p[3]
+    total = 0.0
+    for i in range(3):
+        fade[i] = u[i] + closing * n[i]
+        total += fade[i] * fade[i]
+    speed = np.sqrt(total)
+    change = -fn * coefficient_slope(p, speed) * factor / max(speed, 1e-300)
+    for i in range(3):
+        fade[i] *= change
+        for j in range(3):
+            K[i, j] += p[29] * factor * ((1.0 if i == j else 0.0) - n[i] * n[j])
+    return friction_coefficient(p, speed)

@@ -102,6 +102,17 @@ def test_a_gliding_cable_is_slowed_by_the_friction_of_its_speed_and_drag():
     assert motion.ledger.totals["friction_loss"] > 0
 
 
+def test_statics_without_friction_is_without_its_fall():
+    """Anchors far behind pull with nothing while friction is left out, and with mu + fall after that."""
+    model = on_floor(law(), 4, [])
+    (anchors,) = model.forces(0.0, model.q0, 0 * model.q0, model.fresh_anchors()).moved
+    pulls = [
+        model.forces(0.0, model.q0, 0 * model.q0, [anchors - [0.1, 0.0, 0.0]], friction=on).friction[:, 0].sum()
+        for on in (False, True)
+    ]
+    np.testing.assert_allclose(pulls, [0.0, -(MU + FALL) * WEIGHT * 2.0], rtol=1e-9)
+
+
 def test_no_fall_and_no_drag_is_coulomb_to_the_last_digit():
     """The speed and the power of a fall of nothing change no number."""
 
