@@ -14,11 +14,13 @@ SOURCES = sorted(FOLDER.glob("*.py"))
 def test_notebook_runs_and_its_assertions_hold(source, monkeypatch):
     monkeypatch.setenv("MPLBACKEND", "Agg")
     import matplotlib
+    import matplotlib.pyplot
 
     matplotlib.use("Agg")
     monkeypatch.chdir(FOLDER)
     assert "assert " in source.read_text(encoding="utf-8")
     runpy.run_path(str(source), run_name="testing")
+    matplotlib.pyplot.close("all")
 
 
 @pytest.mark.parametrize("source", SOURCES, ids=lambda p: p.stem)
