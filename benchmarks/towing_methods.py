@@ -193,7 +193,7 @@ def draw(record: dict, out: Path) -> None:
     axes[2].set(
         xlabel="arc length from the supply [m]", ylabel="bending moment [N m]", title="Bending moment (size) at 3 s"
     )
-    axes[0].legend(fontsize=8, loc="center right")
+    axes[0].legend(fontsize=8, loc="upper right", bbox_to_anchor=(1.0, 0.87))  # between the curves
     for ax in axes:
         ax.grid(True, color="#e5e5e5", linewidth=0.6)
         for side in ("top", "right"):
