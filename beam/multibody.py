@@ -317,15 +317,7 @@ class Multibody:
 
     def add_reports(self, out: Forces, reports: Array) -> None:
         """Energies, powers and deepest penetration of the bodies' contacts, from `reports` (surfaces, 7)."""
-        for report, surface in zip(reports.tolist(), self.surfaces, strict=True):
-            out.penalty += report[0]
-            out.bristle += report[1]
-            out.contact_damping_power += report[2]
-            out.friction_power += report[3]
-            out.surface_power += report[4]
-            if report[5] > out.penetration:
-                out.penetration = report[5]
-                out.penetration_at = f"{surface.name}, body {self.bodies[int(report[6])].name}"
+        out.add_contacts(reports, self.surfaces, lambda i: f"body {self.bodies[i].name}")
 
     def add_mass(self, factor: float, blocks: Blocks) -> None:
         """Add factor M of the unturned bodies to the blocks."""

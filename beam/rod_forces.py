@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +12,9 @@ from numpy.typing import NDArray
 from beam.block_sparse import Pattern
 from beam.element import DOF
 from beam.section_memory import SectionMemory
+
+if TYPE_CHECKING:
+    from beam.surface import Surface
 
 Array = NDArray[np.float64]
 
@@ -45,6 +50,18 @@ class Forces:
     bushing: float = 0.0
     bushing_damping_power: float = 0.0
     body_contact: Array = field(default_factory=lambda: np.zeros((0, 3)))
+
+    def add_contacts(self, reports: Array, surfaces: Sequence[Surface], place: Callable[[int], str]) -> None:
+        """Energies, powers and deepest penetration of surfaces, `reports` (surfaces, 7); `place` names the last column."""
+        for report, surface in zip(reports.tolist(), surfaces, strict=True):
+            self.penalty += report[0]
+            self.bristle += report[1]
+            self.contact_damping_power += report[2]
+            self.friction_power += report[3]
+            self.surface_power += report[4]
+            if report[5] > self.penetration:
+                self.penetration = report[5]
+                self.penetration_at = f"{surface.name}, {place(int(report[6]))}"
 
 
 @dataclass

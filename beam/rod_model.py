@@ -309,15 +309,7 @@ class RodModel:
 
     def add_reports(self, out: Forces, reports: Array) -> None:
         """Energies, powers and deepest penetration of the surfaces, from the contact kernel's `reports` (surfaces, 7)."""
-        for report, surface in zip(reports.tolist(), self.surfaces, strict=True):
-            out.penalty += report[0]
-            out.bristle += report[1]
-            out.contact_damping_power += report[2]
-            out.friction_power += report[3]
-            out.surface_power += report[4]
-            if report[5] > out.penetration:
-                out.penetration = report[5]
-                out.penetration_at = f"{surface.name}, element {int(report[6])}"
+        out.add_contacts(reports, self.surfaces, lambda i: f"element {i}")
 
     def inertia(self, a: Array, q: Array | None = None, v: Array | None = None) -> Array:
         """M(q) a with the gyroscopic moments of `v`, shape (n + 1, 12); unturned and at rest if `q` is not given."""
