@@ -24,7 +24,7 @@ from scipy.special import chdtrc, chdtri
 from compare.bench_path import LedPath
 from compare.comparison import ChannelFit
 from compare.noise_covariance import NoiseCovariance
-from effects.towed_cable import stop
+from effects.stop_operator import stop
 
 Array = NDArray[np.float64]
 AFTER = 0.05

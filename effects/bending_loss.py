@@ -39,9 +39,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beam.compiled import kernel
 from effects.effect import ActiveEffect
 from effects.effect_record import effect_record
+from effects.stop_operator import sum_of_stops
 from geometry.errors import InputError
 
 Array = NDArray[np.float64]
@@ -241,26 +241,3 @@ class _Points:
             work += 0.5 * (self.moment + moment) * (after - self.kappa)
             self.kappa, self.moment = after, moment
         return work
-
-
-@kernel
-def sum_of_stops(p: Array, limit: Array, weight: Array) -> Array:
-    """Sum of weight z/limit (m,) of stops that follow p (m,) from 0."""
-    total = np.zeros(len(p))
-    for k in range(len(limit)):
-        if weight[k] > 0:
-            z = 0.0
-            for i in range(1, len(p)):
-                z = min(max(z + p[i] - p[i - 1], -limit[k]), limit[k])
-                total[i] += weight[k] * z / limit[k]
-    return total
-
-
-@kernel
-def stop(p: Array, limit: float, start: float) -> Array:
-    """z (m,) that follows p within +-limit, from `start`."""
-    z = np.empty(len(p))
-    z[0] = start
-    for i in range(1, len(p)):
-        z[i] = min(max(z[i - 1] + p[i] - p[i - 1], -limit), limit)
-    return z

@@ -16,7 +16,8 @@ import numpy as np
 
 from beam.drive_play import reversals
 from effects.effect import Array, BenchPath, Effect, Form, Parameter, of_values
-from effects.towed_cable import TowedCable, stop, turns_back
+from effects.stop_operator import stop
+from effects.towed_cable import TowedCable, turns_back
 from effects.towed_scenario import TowedScenario, si
 from geometry.errors import SpecError
 

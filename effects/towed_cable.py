@@ -19,8 +19,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from beam.axial_chain import AxialChain, led_motion
-from effects.bending_loss import BendingLoss, stop
+from effects.bending_loss import BendingLoss
 from effects.effect import Array, BenchPath, Starts
+from effects.stop_operator import stop
 
 Drive = Callable[[Array, Array], Array]
 """Instants (m,) and position, speed, acceleration (m, 3) to the same (m, 3), of the towed end."""

@@ -8,7 +8,8 @@ import pytest
 
 from beam.axial_chain import GRAVITY, AxialChain
 from effects import find, library
-from effects.towed_cable import TowedCable, stop
+from effects.stop_operator import stop
+from effects.towed_cable import TowedCable
 
 L, M, MU, TAIL = 30.0, 4.6, 0.35, 800.0
 TIME = np.linspace(0.0, 12.0, 121)
